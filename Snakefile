@@ -1,0 +1,48 @@
+# Targets a person types:
+#   snakemake                               everything, report included
+#   snakemake transfer                      one study
+#   snakemake figures/transfer/fig-05.svg   one figure; a table: data/results/transfer/tables/table-4.csv
+#   snakemake check                         verdicts only, with a summary; fails where one is wrong
+#   snakemake animations                    the films
+#   snakemake --configfile my.yaml          a what-if run, in runs/<name>/
+import json
+import os
+import re
+import sys
+from pathlib import Path
+
+from smallsat.config import read_yaml, run_folder, validate
+from smallsat.errors import InputError
+from smallsat.evidence.ledger import read_artefacts, read_ledger
+from smallsat.sources import source_files
+
+# The environment is requirements.lock; no container is used unless one is asked for.
+container: None
+
+
+ROOT = Path(workflow.basedir)
+
+
+configfile: ROOT / "config/default.yaml"
+
+
+try:
+    config = validate(config, read_yaml(ROOT / "config/schema.yaml"))
+    RUN_FOLDER = run_folder(config, read_yaml(ROOT / "config/default.yaml"))
+    read_ledger(ROOT / "data/published/values.csv")
+    ARTEFACTS = read_artefacts(ROOT / "data/published/artefacts.csv")
+except InputError as error:
+    sys.exit(f"smallsat: {error}")
+
+
+workdir: ROOT / RUN_FOLDER
+
+
+STUDIES = ["transfer", "mars"]
+
+
+include: "rules/common.smk"
+include: "rules/transfer.smk"
+include: "rules/mars.smk"
+include: "rules/evidence.smk"
+include: "rules/report.smk"

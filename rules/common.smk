@@ -1,0 +1,36 @@
+# What the rule files share: paths, import closures, and the files that one artefact consists of.
+
+
+def project(path):
+    """A file of the project, as seen from the folder of the run."""
+    return os.path.relpath(ROOT / path)
+
+
+def sources(*modules):
+    """Source files that a command runs, so that editing any of them reruns the rule."""
+    return [os.path.relpath(path) for path in source_files(*modules)]
+
+
+def figure_files(*stems):
+    """The files of figures: three formats and the data drawn."""
+    return [f"{stem}.{suffix}" for stem in stems for suffix in ("svg", "pdf", "png", "csv")]
+
+
+def targets(document, *kinds):
+    """Targets of a document's artefacts, in the order of the document."""
+    return [
+        row["target"] for row in ARTEFACTS if row["document"] == document and row["kind"] in kinds
+    ]
+
+
+def as_json(value):
+    """A parameter for a command line; sorted, so that equal values are equal text."""
+    return json.dumps(value, sort_keys=True)
+
+
+# A notebook is run by papermill; the executed notebook is an output for the reader.
+NOTEBOOK = (
+    "python -m smallsat.notebook {input.notebook} {output.notebook}"
+    " --parameters {params.parameters:q} > {log} 2>&1"
+)
+NOTEBOOK_SOURCES = sources("smallsat.notebook")

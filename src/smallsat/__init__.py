@@ -1,0 +1,1 @@
+"""Five published studies of small-satellite guidance and control, rerun and judged."""

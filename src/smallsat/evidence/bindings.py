@@ -1,0 +1,63 @@
+"""Inputs: what each printed parameter feeds in our configuration or code, and whether it agrees."""
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from smallsat.config import Config, lookup
+from smallsat.errors import InputError
+from smallsat.evidence.printed import parse_printed
+from smallsat.evidence.reference import resolve
+
+
+def bound_value(row: Mapping[str, str], binding: Mapping[str, Any], config: Config) -> float:
+    """The value of ours that a printed input feeds, in the printed unit.
+
+    A binding names a ``config`` key or a ``constant`` of the code. Where that is a list, the row's
+    component picks the entry: ``item 3``, ``min``/``max``, ``x``, ``2``, ``23`` (row 2, column 3).
+    """
+    if "config" in binding:
+        value: Any = lookup(config, binding["config"])
+    else:
+        value = resolve(binding["constant"], "bindings.yaml")
+    if isinstance(value, list | tuple | np.ndarray):
+        value = _component(np.asarray(value), row["component"] or row["case"], row["id"])
+    return float(value)
+
+
+def binding_name(binding: Mapping[str, Any]) -> str:
+    """The name of what an input feeds, for a reader."""
+    return binding.get("config") or binding["constant"].replace("smallsat.", "").replace(":", ".")
+
+
+def agrees(row: Mapping[str, str], binding: Mapping[str, Any], value: float) -> bool:
+    """Whether a printed input equals the value it feeds.
+
+    ``reading`` in the binding says how a literal with symbols or words is read as a number.
+    """
+    printed = parse_printed(str(binding.get("reading", row["printed"])))
+    if printed is None:
+        raise InputError(
+            f"bindings.yaml: '{row['id']}': {row['printed']!r} is no number; add a 'reading'"
+        )
+    return bool(np.isclose(printed.value, value, rtol=1e-12, atol=0.0))
+
+
+def _component(value: np.ndarray, component: str, identifier: str) -> Any:
+    axes = {"x": 0, "y": 1, "z": 2, "min": 0, "max": -1}
+    if match := re.fullmatch(r"item (\d+)", component):
+        index: tuple[int, ...] = (int(match[1]) - 1,)
+    elif component in axes:
+        index = (axes[component],)
+    elif re.fullmatch(r"[1-9]+", component) and len(component) == value.ndim:
+        index = tuple(int(digit) - 1 for digit in component)
+    else:
+        raise InputError(f"bindings.yaml: '{identifier}': component {component!r} picks no entry")
+    try:
+        return value[index]
+    except IndexError:
+        raise InputError(
+            f"bindings.yaml: '{identifier}': component {component!r} is outside {value.shape}"
+        ) from None

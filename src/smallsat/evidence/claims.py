@@ -1,0 +1,47 @@
+"""Prose claims: a place in a document, a paraphrase, and a predicate over the results."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+import pandas as pd
+
+from smallsat.config import Config, read_yaml
+from smallsat.evidence.reference import resolve
+
+CLAIM_COLUMNS = ("id", "document", "locator", "claim", "outcome", "evidence")
+Outcome = Literal["holds", "fails", "undecided"]
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """What the results say of a claim, and the figures it rests on."""
+
+    outcome: Outcome
+    evidence: str
+
+
+Predicate = Callable[[Config, Path], Judgement]
+
+
+def judged(condition: bool, evidence: str) -> Judgement:
+    """A claim that either holds or fails."""
+    return Judgement("holds" if condition else "fails", evidence)
+
+
+def read_claims(path: Path, document: str) -> list[dict[str, Any]]:
+    """Entries of ``claims.yaml`` for one document."""
+    return [entry for entry in read_yaml(path) if entry["document"] == document]
+
+
+def judge_claims(
+    entries: list[dict[str, Any]], config: Config, results: Path, path: str
+) -> pd.DataFrame:
+    """Apply every predicate to the results; one row a claim."""
+    rows = []
+    for entry in entries:
+        judgement: Judgement = resolve(entry["predicate"], path)(config, results)
+        row = {name: entry[name] for name in CLAIM_COLUMNS[:4]}
+        rows.append(row | {"outcome": judgement.outcome, "evidence": judgement.evidence})
+    return pd.DataFrame(rows, columns=list(CLAIM_COLUMNS))

@@ -1,0 +1,109 @@
+"""The ledger of published values and the list of artefacts, checked as they are read."""
+
+import csv
+from collections.abc import Iterator
+from pathlib import Path
+
+from smallsat.errors import InputError
+from smallsat.evidence.printed import LOST, looks_numeric, parse_printed
+
+VALUE_COLUMNS = (
+    "id",
+    "document",
+    "locator",
+    "quantity",
+    "case",
+    "component",
+    "printed",
+    "unit",
+    "kind",
+    "note",
+)
+VALUE_KINDS = ("input", "result", "timing")
+ARTEFACT_COLUMNS = ("document", "id", "kind", "caption", "class", "target")
+ARTEFACT_KINDS = ("table", "figure", "animation")
+Row = dict[str, str]
+DOCUMENTS = ("transfer", "mars", "slew", "racing", "rendezvous")
+
+
+def read_ledger(path: Path) -> list[Row]:
+    """Read ``data/published/values.csv``: one row a published number, as text.
+
+    Raises
+    ------
+    InputError
+        On a missing column, a duplicate id, an unknown document or kind, or a number that does not
+        parse, naming the line.
+    """
+    table = _read(path, VALUE_COLUMNS)
+    for line, row in _numbered(table):
+        _require(path, line, "document", row["document"], DOCUMENTS)
+        _require(path, line, "kind", row["kind"], VALUE_KINDS)
+        printed = row["printed"]
+        if not printed:
+            raise InputError(f"{path}: line {line}: 'printed' is empty; write {LOST} if lost")
+        measured = row["kind"] != "input"
+        if measured and looks_numeric(printed) and parse_printed(printed) is None:
+            raise InputError(
+                f"{path}: line {line}: 'printed' is {printed!r}, which is no number; "
+                f"allowed: a decimal, '<' and a decimal, arithmetic, or {LOST}"
+            )
+    _unique(path, table, ["id"])
+    return table
+
+
+def read_artefacts(path: Path) -> list[Row]:
+    """Read ``data/published/artefacts.csv``: one row a table, figure or animation.
+
+    An empty target means that the study is not built yet.
+    """
+    table = _read(path, ARTEFACT_COLUMNS)
+    for line, row in _numbered(table):
+        _require(path, line, "document", row["document"], DOCUMENTS)
+        _require(path, line, "kind", row["kind"], ARTEFACT_KINDS)
+    _unique(path, table, ["document", "id"])
+    return table
+
+
+def _read(path: Path, columns: tuple[str, ...]) -> list[Row]:
+    try:
+        with Path(path).open(newline="", encoding="utf-8") as file:
+            reader = csv.DictReader(file, strict=True)
+            missing = [name for name in columns if name not in (reader.fieldnames or ())]
+            if missing:
+                raise InputError(
+                    f"{path}: column '{missing[0]}' is missing; needed: {', '.join(columns)}"
+                )
+            rows: list[Row] = []
+            for row in reader:
+                if None in row or None in row.values():
+                    raise InputError(
+                        f"{path}: line {reader.line_num}: not {len(columns)} fields; restore it"
+                    )
+                rows.append(row)
+    except FileNotFoundError:
+        raise InputError(f"{path}: no such file; restore it from the repository") from None
+    except (csv.Error, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: not a CSV file ({error}); restore it") from None
+    return [{name: row[name] for name in columns} for row in rows]
+
+
+def _numbered(table: list[Row]) -> Iterator[tuple[int, Row]]:
+    # Line 1 is the header.
+    return enumerate(table, start=2)
+
+
+def _require(path: Path, line: int, column: str, value: str, allowed: tuple[str, ...]) -> None:
+    if value not in allowed:
+        raise InputError(
+            f"{path}: line {line}: '{column}' is {value!r}; allowed: {', '.join(allowed)}"
+        )
+
+
+def _unique(path: Path, table: list[Row], columns: list[str]) -> None:
+    seen: set[str] = set()
+    for line, row in _numbered(table):
+        name = " ".join(row[column] for column in columns)
+        if name in seen:
+            raise InputError(f"{path}: line {line}: duplicate id '{name}'; every id occurs once")
+        seen.add(name)

@@ -1,0 +1,42 @@
+"""What a study says of a published value: the same id with what it computed."""
+
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from math import nan
+
+import pandas as pd
+
+OBSERVATION_COLUMNS = ("id", "run", "computed", "residual", "note")
+
+
+@dataclass(frozen=True)
+class Observation:
+    """A computed value for one row of the ledger, in the unit of that row.
+
+    Attributes
+    ----------
+    id
+        Identifier of the row in ``values.csv``.
+    computed
+        The value, in the printed unit.
+    run
+        Which computation it comes from, e.g. ``as published`` or ``converged``; a row may have one
+        observation a run.
+    residual
+        Largest error of the constraints, found by a check that is independent of the solver; needed
+        where a better optimum is claimed.
+    note
+        What a reader must know of this value, such as a solver that did not converge.
+    """
+
+    id: str
+    computed: float
+    run: str = ""
+    residual: float = nan
+    note: str = ""
+
+
+def observations_table(observations: Iterable[Observation]) -> pd.DataFrame:
+    """Tidy table of observations, one a row."""
+    rows = [asdict(observation) for observation in observations]
+    return pd.DataFrame(rows, columns=list(OBSERVATION_COLUMNS))
