@@ -8,9 +8,10 @@ def evidence_modules(study):
 
 rule judge:
     input:
-        published=[
-            project(f"data/published/{name}")
-            for name in ("values.csv", "rules.yaml", "bindings.yaml", "errata.yaml", "claims.yaml")
+        ledger=project("data/published/values.csv"),
+        entries=lambda w: [
+            project(f"data/published/{w.study}/{name}.yaml")
+            for name in ("rules", "bindings", "errata", "claims")
         ],
         sources=lambda w: sources("smallsat.evidence.__main__", *evidence_modules(w.study)),
         results=lambda w: STUDY_RESULTS[w.study],
@@ -87,3 +88,35 @@ rule check:
     shell:
         "python -m smallsat.evidence summary {input} --published {params.published}"
         " {params.what_if} | tee {log}; exit ${{PIPESTATUS[0]}}"
+
+
+# The printed tables, each cell with what we computed and its verdict.
+rule tables:
+    input:
+        notebook=project("notebooks/tables.ipynb"),
+        sources=NOTEBOOK_SOURCES + sources("smallsat.evidence.ledger", "smallsat.results"),
+        ledger=project("data/published/values.csv"),
+        artefacts=project("data/published/artefacts.csv"),
+        verdicts="data/results/{study}/verdicts.csv",
+    output:
+        "data/results/{study}/tables/{table}.csv",
+        notebook="data/results/{study}/notebooks/{table}.ipynb",
+    wildcard_constraints:
+        study="|".join(STUDIES),
+        table=r"table-\d+",
+    params:
+        parameters=lambda w, input, output: as_json(
+            {
+                "document": w.study,
+                "target": f"data/results/{w.study}/tables/{w.table}.csv",
+                "ledger": input.ledger,
+                "artefacts": input.artefacts,
+                "verdicts": input.verdicts,
+            }
+        ),
+    log:
+        "logs/{study}/{table}.log",
+    benchmark:
+        "logs/{study}/{table}.benchmark.tsv"
+    shell:
+        NOTEBOOK

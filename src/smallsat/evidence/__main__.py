@@ -8,8 +8,8 @@ import pandas as pd
 
 from smallsat.config import read_yaml
 from smallsat.errors import InputError, report_input_errors
-from smallsat.evidence.claims import judge_claims, read_claims
-from smallsat.evidence.errata import prove_errata, read_errata
+from smallsat.evidence.claims import judge_claims
+from smallsat.evidence.errata import prove_errata
 from smallsat.evidence.ledger import DOCUMENTS, read_ledger
 from smallsat.evidence.summary import failures, summary_text
 from smallsat.evidence.verdicts import judge, pending
@@ -45,20 +45,16 @@ def _study(arguments: argparse.Namespace) -> None:
     document, published, results = arguments.document, arguments.published, arguments.results
     rows = [row for row in read_ledger(published / "values.csv") if row["document"] == document]
 
-    def entries(name: str) -> list[dict]:
-        return [e for e in read_yaml(published / name) if e["document"] == document]
-
-    errata_path, claims_path = published / "errata.yaml", published / "claims.yaml"
-    errata = read_errata(errata_path, document)
+    folder = published / document
+    errata_path, claims_path = folder / "errata.yaml", folder / "claims.yaml"
+    errata = read_yaml(errata_path)
     proofs = prove_errata(errata, arguments.config, results, str(errata_path))
-    claims = judge_claims(
-        read_claims(claims_path, document), arguments.config, results, str(claims_path)
-    )
+    claims = judge_claims(read_yaml(claims_path), arguments.config, results, str(claims_path))
     verdicts = judge(
         rows,
         read_table(results / "observations.csv"),
-        entries("rules.yaml"),
-        entries("bindings.yaml"),
+        read_yaml(folder / "rules.yaml"),
+        read_yaml(folder / "bindings.yaml"),
         errata,
         proofs,
         arguments.config,

@@ -7,10 +7,10 @@ from typing import Any, Literal
 
 import pandas as pd
 
-from smallsat.config import Config, read_yaml
+from smallsat.config import Config
 from smallsat.evidence.reference import resolve
 
-CLAIM_COLUMNS = ("id", "document", "locator", "claim", "outcome", "evidence")
+CLAIM_COLUMNS = ("id", "locator", "claim", "outcome", "evidence")
 Outcome = Literal["holds", "fails", "undecided"]
 
 
@@ -30,11 +30,6 @@ def judged(condition: bool, evidence: str) -> Judgement:
     return Judgement("holds" if condition else "fails", evidence)
 
 
-def read_claims(path: Path, document: str) -> list[dict[str, Any]]:
-    """Entries of ``claims.yaml`` for one document."""
-    return [entry for entry in read_yaml(path) if entry["document"] == document]
-
-
 def judge_claims(
     entries: list[dict[str, Any]], config: Config, results: Path, path: str
 ) -> pd.DataFrame:
@@ -42,6 +37,6 @@ def judge_claims(
     rows = []
     for entry in entries:
         judgement: Judgement = resolve(entry["predicate"], path)(config, results)
-        row = {name: entry[name] for name in CLAIM_COLUMNS[:4]}
+        row = {name: entry[name] for name in CLAIM_COLUMNS[:3]}
         rows.append(row | {"outcome": judgement.outcome, "evidence": judgement.evidence})
     return pd.DataFrame(rows, columns=list(CLAIM_COLUMNS))

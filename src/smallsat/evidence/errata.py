@@ -7,12 +7,11 @@ from typing import Any
 
 import pandas as pd
 
-from smallsat.config import Config, read_yaml
+from smallsat.config import Config
 from smallsat.evidence.reference import resolve
 
 ERRATA_COLUMNS = (
     "key",
-    "document",
     "locator",
     "printed",
     "correct",
@@ -47,11 +46,6 @@ class Proof:
 ProofFunction = Callable[[Config, Path], Proof]
 
 
-def read_errata(path: Path, document: str) -> list[dict[str, Any]]:
-    """Entries of ``errata.yaml`` for one document."""
-    return [entry for entry in read_yaml(path) if entry["document"] == document]
-
-
 def prove_errata(
     entries: list[dict[str, Any]], config: Config, results: Path, path: str
 ) -> pd.DataFrame:
@@ -71,7 +65,7 @@ def prove_errata(
     rows = []
     for entry in entries:
         proof: Proof = resolve(entry["proof"], path)(config, results)
-        row = {name: entry.get(name, "") for name in ERRATA_COLUMNS[:6]}
+        row = {name: entry.get(name, "") for name in ERRATA_COLUMNS[:5]}
         row |= {
             "as_printed": proof.as_printed,
             "as_corrected": proof.as_corrected,

@@ -1,6 +1,7 @@
 """One look for every figure: sizes, colours, fonts, and what makes the files reproducible."""
 
 import matplotlib as mpl
+from cycler import cycler
 
 # Okabe and Ito's colours, which colour-blind readers can tell apart.
 BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE = (
@@ -39,7 +40,7 @@ def apply_style() -> None:
             "grid.color": "#dddddd",
             "grid.linewidth": 0.5,
             "lines.linewidth": 1.3,
-            "axes.prop_cycle": mpl.cycler(color=CYCLE),
+            "axes.prop_cycle": cycler(color=CYCLE),
             # Fonts travel with the file, and nothing random or dated is written.
             "pdf.fonttype": 42,
             "svg.fonttype": "path",
