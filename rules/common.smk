@@ -28,6 +28,12 @@ def as_json(value):
     return json.dumps(value, sort_keys=True)
 
 
+# What the verdicts of a study rest on; each study's rule file adds its own.
+STUDY_RESULTS = {}
+
+# Films, made only when asked for.
+ANIMATIONS = []
+
 # A notebook is run by papermill; the executed notebook is an output for the reader.
 NOTEBOOK = (
     "python -m smallsat.notebook {input.notebook} {output.notebook}"

@@ -1,36 +1,66 @@
 # Evidence: errata proven, claims and values judged, study by study; then all verdicts in one table.
 
 
-def evidence_modules(study):
-    """Modules with a study's proofs and predicates, which the judge loads by name."""
-    return [f"smallsat.{study}.errata", f"smallsat.{study}.claims"]
+for study in STUDIES:
 
+    rule:
+        name:
+            f"{study}_verdicts"
+        input:
+            ledger=project("data/published/values.csv"),
+            entries=[
+                project(f"data/published/{study}/{name}.yaml")
+                for name in ("rules", "bindings", "errata", "claims")
+            ],
+            # The judge loads a study's proofs and predicates by name.
+            sources=sources(
+                "smallsat.evidence.__main__",
+                f"smallsat.{study}.errata",
+                f"smallsat.{study}.claims",
+            ),
+            results=STUDY_RESULTS[study],
+        output:
+            errata=f"data/results/{study}/errata.csv",
+            claims=f"data/results/{study}/claims.csv",
+            verdicts=f"data/results/{study}/verdicts.csv",
+        params:
+            study=study,
+            published=project("data/published"),
+            config=as_json({key: value for key, value in config.items() if key != "run"}),
+        log:
+            f"logs/{study}/verdicts.log",
+        benchmark:
+            f"logs/{study}/verdicts.benchmark.tsv"
+        shell:
+            "python -m smallsat.evidence study {params.study} --config {params.config:q}"
+            " --published {params.published} --results data/results/{params.study} > {log} 2>&1"
 
-rule judge:
-    input:
-        ledger=project("data/published/values.csv"),
-        entries=lambda w: [
-            project(f"data/published/{w.study}/{name}.yaml")
-            for name in ("rules", "bindings", "errata", "claims")
-        ],
-        sources=lambda w: sources("smallsat.evidence.__main__", *evidence_modules(w.study)),
-        results=lambda w: STUDY_RESULTS[w.study],
-    output:
-        errata="data/results/{study}/errata.csv",
-        claims="data/results/{study}/claims.csv",
-        verdicts="data/results/{study}/verdicts.csv",
-    wildcard_constraints:
-        study="|".join(STUDIES),
-    params:
-        published=project("data/published"),
-        config=as_json({key: value for key, value in config.items() if key != "run"}),
-    log:
-        "logs/{study}/judge.log",
-    benchmark:
-        "logs/{study}/judge.benchmark.tsv"
-    shell:
-        "python -m smallsat.evidence study {wildcards.study} --config {params.config:q}"
-        " --published {params.published} --results data/results/{wildcards.study} > {log} 2>&1"
+    # The printed tables, each cell with what we computed and its verdict.
+    rule:
+        name:
+            f"{study}_tables"
+        input:
+            notebook=project("notebooks/tables.ipynb"),
+            sources=NOTEBOOK_SOURCES + sources("smallsat.evidence.ledger", "smallsat.results"),
+            artefacts=project("data/published/artefacts.csv"),
+            verdicts=f"data/results/{study}/verdicts.csv",
+        output:
+            targets(study, "table"),
+            notebook=f"data/results/{study}/notebooks/tables.ipynb",
+        params:
+            parameters=as_json(
+                {
+                    "document": study,
+                    "artefacts_path": project("data/published/artefacts.csv"),
+                    "verdicts_path": f"data/results/{study}/verdicts.csv",
+                }
+            ),
+        log:
+            f"logs/{study}/tables.log",
+        benchmark:
+            f"logs/{study}/tables.benchmark.tsv"
+        shell:
+            NOTEBOOK
 
 
 rule merge_verdicts:
@@ -89,34 +119,3 @@ rule check:
         "python -m smallsat.evidence summary {input} --published {params.published}"
         " {params.what_if} | tee {log}; exit ${{PIPESTATUS[0]}}"
 
-
-# The printed tables, each cell with what we computed and its verdict.
-rule tables:
-    input:
-        notebook=project("notebooks/tables.ipynb"),
-        sources=NOTEBOOK_SOURCES + sources("smallsat.evidence.ledger", "smallsat.results"),
-        ledger=project("data/published/values.csv"),
-        artefacts=project("data/published/artefacts.csv"),
-        verdicts="data/results/{study}/verdicts.csv",
-    output:
-        "data/results/{study}/tables/{table}.csv",
-        notebook="data/results/{study}/notebooks/{table}.ipynb",
-    wildcard_constraints:
-        study="|".join(STUDIES),
-        table=r"table-\d+",
-    params:
-        parameters=lambda w, input, output: as_json(
-            {
-                "document": w.study,
-                "target": f"data/results/{w.study}/tables/{w.table}.csv",
-                "ledger": input.ledger,
-                "artefacts": input.artefacts,
-                "verdicts": input.verdicts,
-            }
-        ),
-    log:
-        "logs/{study}/{table}.log",
-    benchmark:
-        "logs/{study}/{table}.benchmark.tsv"
-    shell:
-        NOTEBOOK

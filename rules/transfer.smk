@@ -1,0 +1,1 @@
+STUDY_RESULTS["transfer"] = ["data/results/transfer/observations.csv"]
