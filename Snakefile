@@ -16,6 +16,7 @@ from smallsat.errors import InputError
 from smallsat.evidence.ledger import read_artefacts, read_ledger
 from smallsat.sources import source_files
 
+
 # The environment is requirements.lock; no container is used unless one is asked for.
 container: None
 

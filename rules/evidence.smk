@@ -23,14 +23,14 @@ for study in STUDIES:
             errata=f"data/results/{study}/errata.csv",
             claims=f"data/results/{study}/claims.csv",
             verdicts=f"data/results/{study}/verdicts.csv",
-        params:
-            study=study,
-            published=project("data/published"),
-            config=as_json({key: value for key, value in config.items() if key != "run"}),
         log:
             f"logs/{study}/verdicts.log",
         benchmark:
             f"logs/{study}/verdicts.benchmark.tsv"
+        params:
+            study=study,
+            published=project("data/published"),
+            config=as_json({key: value for key, value in config.items() if key != "run"}),
         shell:
             "python -m smallsat.evidence study {params.study} --config {params.config:q}"
             " --published {params.published} --results data/results/{params.study} > {log} 2>&1"
@@ -47,6 +47,10 @@ for study in STUDIES:
         output:
             targets(study, "table"),
             notebook=f"data/results/{study}/notebooks/tables.ipynb",
+        log:
+            f"logs/{study}/tables.log",
+        benchmark:
+            f"logs/{study}/tables.benchmark.tsv"
         params:
             parameters=as_json(
                 {
@@ -55,10 +59,6 @@ for study in STUDIES:
                     "verdicts_path": f"data/results/{study}/verdicts.csv",
                 }
             ),
-        log:
-            f"logs/{study}/tables.log",
-        benchmark:
-            f"logs/{study}/tables.benchmark.tsv"
         shell:
             NOTEBOOK
 
@@ -70,12 +70,12 @@ rule merge_verdicts:
         verdicts=[f"data/results/{study}/verdicts.csv" for study in STUDIES],
     output:
         "data/results/verdicts.csv",
-    params:
-        published=project("data/published"),
     log:
         "logs/merge_verdicts.log",
     benchmark:
         "logs/merge_verdicts.benchmark.tsv"
+    params:
+        published=project("data/published"),
     shell:
         "python -m smallsat.evidence merge --published {params.published} --output {output}"
         " {input.verdicts} > {log} 2>&1"
@@ -87,13 +87,13 @@ rule accept_verdicts:
         "data/results/verdicts.csv",
     output:
         touch("data/results/verdicts.accepted"),
-    params:
-        published=project("data/published"),
-        what_if="" if RUN_FOLDER == "." else "--what-if",
     log:
         "logs/accept_verdicts.log",
     benchmark:
         "logs/accept_verdicts.benchmark.tsv"
+    params:
+        published=project("data/published"),
+        what_if="" if RUN_FOLDER == "." else "--what-if",
     shell:
         "python -m smallsat.evidence summary {input} --published {params.published}"
         " {params.what_if} > {log} 2>&1"
@@ -110,12 +110,11 @@ rule verdicts:
 rule check:
     input:
         "data/results/verdicts.csv",
+    log:
+        "logs/check.log",
     params:
         published=project("data/published"),
         what_if="" if RUN_FOLDER == "." else "--what-if",
-    log:
-        "logs/check.log",
     shell:
         "python -m smallsat.evidence summary {input} --published {params.published}"
         " {params.what_if} | tee {log}; exit ${{PIPESTATUS[0]}}"
-
