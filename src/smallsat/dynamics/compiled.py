@@ -1,0 +1,34 @@
+"""Compilation of inner loops: ``@compiled`` is Numba's ``njit`` with a cache that cannot go stale.
+
+Numba keeps a compiled function as long as its own file is unchanged, even when a function that it
+calls, in another file, has changed. The cache therefore lives in a folder that is named after the
+content of every file with compiled functions.
+"""
+
+import hashlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numba
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+_PACKAGE = Path(__file__).parents[1]
+
+
+def _digest() -> str:
+    digest = hashlib.sha256(numba.__version__.encode())
+    for path in sorted(_PACKAGE.rglob("*.py")):
+        content = path.read_bytes()
+        if b"@compiled" in content:
+            digest.update(content)
+    return digest.hexdigest()[:12]
+
+
+numba.config.CACHE_DIR = str(_PACKAGE / "__pycache__" / f"numba-{_digest()}")
+
+
+def compiled(function: Function) -> Function:
+    """Compile a function on its first call with arguments of each type."""
+    return numba.njit(cache=True)(function)  # type: ignore[return-value]

@@ -1,0 +1,57 @@
+"""Commands of the Mars pointing study. ``python -m smallsat.mars -h``."""
+
+import argparse
+import json
+from pathlib import Path
+
+import pandas as pd
+
+from smallsat.errors import report_input_errors
+from smallsat.evidence.observation import observations_table
+from smallsat.mars.independent_check import check_runs
+from smallsat.mars.modes import shares, timeline
+from smallsat.mars.observations import observations
+from smallsat.mars.parameters import parameters
+from smallsat.mars.simulation import as_table, day_run, document_runs
+from smallsat.results import write_table
+
+
+def main() -> None:
+    """Parse the command line and run one command."""
+    parser = argparse.ArgumentParser(prog="python -m smallsat.mars", description=__doc__)
+    commands = parser.add_subparsers(dest="command", required=True)
+    for name, explanation in (
+        ("simulate", "the document's runs, the Mars day, and an observation a published value"),
+        ("check", "the document's runs again, by quaternions and an adaptive integrator"),
+    ):
+        command = commands.add_parser(name, help=explanation)
+        command.add_argument("--config", required=True, type=json.loads, help="mars section, JSON")
+        command.add_argument("--output-folder", required=True, type=Path)
+    arguments = parser.parse_args()
+    {"simulate": _simulate, "check": _check}[arguments.command](
+        arguments.config, arguments.output_folder
+    )
+
+
+def _simulate(section: dict, folder: Path) -> None:
+    given = parameters(section)
+    runs = document_runs(section, given)
+    tables = [as_table(record).assign(run=name) for name, record in runs.items()]
+    write_table(pd.concat(tables, ignore_index=True), folder / "trajectories.parquet")
+
+    day = as_table(day_run(section, given))
+    columns = ["time_s", "sigma_1", "sigma_2", "sigma_3", "mode"]
+    write_table(day[columns], folder / "day.parquet")
+    intervals = timeline(day["time_s"].to_numpy(), day["mode"].to_numpy())
+    write_table(intervals, folder / "modes.csv")
+    write_table(shares(intervals), folder / "mode-shares.csv")
+
+    write_table(observations_table(observations(section, given, runs)), folder / "observations.csv")
+
+
+def _check(section: dict, folder: Path) -> None:
+    write_table(check_runs(section, parameters(section)), folder / "independent.parquet")
+
+
+if __name__ == "__main__":
+    report_input_errors(main)
