@@ -1,0 +1,178 @@
+"""Everything that the report says, collected from the results of a run and put into words."""
+
+import hashlib
+import json
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from smallsat.config import Config, read_yaml
+from smallsat.evidence.ledger import VALUE_KINDS, read_artefacts, read_ledger
+from smallsat.evidence.summary import failures, verdict_counts
+from smallsat.evidence.verdicts import PENDING
+from smallsat.report.inputs import input_groups
+from smallsat.report.number import significant_text
+from smallsat.report.values import Content, of_table, records, value_table, value_texts
+from smallsat.results import read_table
+
+# Digits of numbers in tables that go beyond a document.
+EXTRAS_DIGITS = 7
+
+
+def collect(project: Path, run: Path, config: Config, default: Config) -> Content:
+    """The content of the report of one run.
+
+    Parameters
+    ----------
+    project
+        Folder of the project, with ``data/published`` and ``report``.
+    run
+        Folder of the run, with ``data/results``.
+    config
+        The configuration of the run.
+    default
+        The documents' own values.
+    """
+    published, results = project / "data/published", run / "data/results"
+    ledger = read_ledger(published / "values.csv")
+    kinds = pd.Series({row["id"]: row["kind"] for row in ledger})
+    verdicts = read_table(results / "verdicts.csv")
+    verdicts["kind"] = verdicts["id"].map(kinds)
+    verdicts["seconds"] = verdicts["id"].map(_seconds(results))
+    artefacts = read_artefacts(published / "artefacts.csv")
+    counts = verdict_counts(verdicts, kinds)
+
+    documents = []
+    for name, described in read_yaml(project / "report/documents.yaml").items():
+        own = verdicts[verdicts["document"] == name]
+        document = {
+            "key": name,
+            **described,
+            "built": bool((own["verdict"] != PENDING).any()),
+            "counts": _counts(counts.loc[name]),
+            "artefacts": {
+                kind: sum(row["document"] == name and row["kind"] == kind for row in artefacts)
+                for kind in ("table", "figure", "animation")
+            },
+        }
+        if document["built"]:
+            chapter = project / f"report/chapters/{name}.typ"
+            document |= _study(own, artefacts, results / name, published / name)
+            document["chapter"] = f"/report/chapters/{name}.typ" if chapter.exists() else None
+        documents.append(document)
+    return {
+        "run": _run(project, run, config, default),
+        "verdicts": list(counts.columns),
+        "documents": documents,
+        "values": {str(row["id"]): value_texts(row) for row in records(verdicts)},
+        "config": config,
+    }
+
+
+def _study(
+    verdicts: pd.DataFrame, artefacts: list[dict[str, str]], results: Path, published: Path
+) -> Content:
+    document = published.name
+    own = [row for row in artefacts if row["document"] == document and row["target"]]
+    tables = [row for row in own if row["kind"] == "table"]
+    in_table = pd.Series(False, index=verdicts.index)
+    table_contents = []
+    for row in tables:
+        cells = of_table(verdicts, row["id"])
+        in_table[cells.index] = True
+        table_contents.append({**row, **value_table(cells)})
+    elsewhere = verdicts[~in_table & (verdicts["kind"] != "input")]
+    errata = records(read_table(results / "errata.csv"))
+    claims = records(read_table(results / "claims.csv"))
+    unreproducible = verdicts[verdicts["verdict"] == "unreproducible"]
+    return {
+        "tables": table_contents,
+        "figures": [_figure(row) for row in own if row["kind"] == "figure"],
+        "animations": [row for row in own if row["kind"] == "animation"],
+        "elsewhere": [
+            {"locator": locator, **value_table(rows)}
+            for locator, rows in elsewhere.groupby("locator", sort=False)
+        ],
+        "inputs": input_groups(verdicts[verdicts["kind"] == "input"]),
+        "errata": errata,
+        "claims": claims,
+        "extras": _extras(published / "extras.yaml", results.parents[2]),
+        "notebooks": [
+            f"data/results/{document}/notebooks/{path.name}"
+            for path in sorted((results / "notebooks").glob("*.ipynb"))
+        ],
+        "wrong": [
+            {"id": row["id"], "reason": row["reason"], **value_texts(row)}
+            for row in records(failures(verdicts))
+        ],
+        "unreproducible": [
+            {"reason": reason, "places": sorted(set(rows["locator"])), "values": len(rows)}
+            for reason, rows in unreproducible.groupby("reason", sort=False)
+        ],
+    }
+
+
+def _figure(artefact: Mapping[str, str]) -> Content:
+    stem = artefact["target"].removesuffix(".svg")
+    return {"id": artefact["id"], "caption": artefact["caption"], "stem": stem}
+
+
+def _seconds(results: Path) -> dict[str, float]:
+    """Our seconds for the timings of all studies that measure them, by id."""
+    tables = [read_table(path) for path in sorted(results.glob("*/timings.csv"))]
+    return {str(row["id"]): row["seconds"] for table in tables for row in records(table)}
+
+
+def _counts(counts: pd.DataFrame) -> list[Content]:
+    return [
+        {"kind": kind, "total": int(counts.loc[kind].sum()), "numbers": counts.loc[kind].tolist()}
+        for kind in sorted(counts.index, key=["result", "timing", "input"].index)
+        if kind in VALUE_KINDS
+    ]
+
+
+def _extras(path: Path, run: Path) -> list[Content]:
+    """Tables and figures beyond the document, as the study lists them."""
+    entries = (read_yaml(path) or []) if path.exists() else []
+    extras = []
+    for entry in entries:
+        extra = {"title": entry["title"], "text": entry.get("text", ""), "table": None}
+        if entry.get("table"):
+            table = read_table(run / entry["table"])
+            extra["table"] = {
+                "target": entry["table"],
+                "header": [str(name) for name in table.columns],
+                "rows": [[_cell(value) for value in row] for row in table.itertuples(index=False)],
+            }
+        extra["figures"] = [{"stem": stem} for stem in entry.get("figures") or []]
+        extras.append(extra)
+    return extras
+
+
+def _cell(value: Any) -> str:
+    if isinstance(value, float):
+        return significant_text(value, EXTRAS_DIGITS)
+    return str(value)
+
+
+def _run(project: Path, run: Path, config: Config, default: Config) -> Content:
+    """Which run this is: its folder, its configuration and where that departs from the default."""
+    folder = run.resolve().relative_to(project.resolve()).as_posix()
+    own, reference = ({**values, "run": ""} for values in (config, default))
+    changes = [
+        {"key": key, "value": ours, "default": theirs}
+        for (key, ours), (_, theirs) in zip(_leaves(own), _leaves(reference), strict=True)
+        if ours != theirs
+    ]
+    digest = hashlib.sha256(json.dumps(own, sort_keys=True).encode()).hexdigest()
+    return {"folder": folder, "what_if": folder != ".", "digest": digest[:12], "changes": changes}
+
+
+def _leaves(value: Any, key: str = "") -> Iterator[tuple[str, str]]:
+    if isinstance(value, dict):
+        for name in sorted(value):
+            yield from _leaves(value[name], f"{key}.{name}" if key else name)
+    else:
+        yield key, json.dumps(value)

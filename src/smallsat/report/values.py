@@ -1,0 +1,106 @@
+"""Tables of published values beside ours, with repeated remarks gathered below the table."""
+
+from collections.abc import Iterator, Mapping
+from itertools import count, product
+from math import isfinite, nan
+from string import ascii_lowercase
+from typing import Any
+
+import pandas as pd
+
+from smallsat.report.number import computed_text, difference_text, significant_text
+
+Content = dict[str, Any]
+# Said once, where the report explains its verdicts.
+OBVIOUS = ("equal to the printed digits", "the study is not built yet")
+# Seconds vary from run to run, so more digits would say nothing.
+TIMING_DIGITS = 3
+
+
+def of_table(verdicts: pd.DataFrame, table: str) -> pd.DataFrame:
+    """Rows of one printed table: located there, or in a part of it such as its footnote.
+
+    Parameters
+    ----------
+    verdicts
+        Verdicts of one document.
+    table
+        Its name in the document, such as ``Table 1``.
+    """
+    locators = verdicts["locator"]
+    return verdicts[(locators == table) | locators.str.startswith(f"{table} ")]
+
+
+def value_table(verdicts: pd.DataFrame) -> Content:
+    """Texts of a table: printed, computed, difference and verdict, remarks as lettered notes.
+
+    A case or a unit that all rows share is given once, for the whole table.
+    """
+    letters: dict[str, str] = {}
+    names = _letters()
+    rows = []
+    for row in records(verdicts):
+        reason = str(row["reason"])
+        if reason in OBVIOUS:
+            letter = ""
+        else:
+            letter = letters[reason] if reason in letters else next(names)
+            letters[reason] = letter
+        quantity = ", ".join(str(row[key]) for key in ("quantity", "component") if row[key])
+        rows.append({**value_texts(row), "quantity": quantity, "note": letter})
+    shared = {"case": _common_words(rows, "case"), "unit": _common(rows, "unit")}
+    return {
+        "rows": rows,
+        "shared": {key: value for key, value in shared.items() if value},
+        "notes": [{"letter": letter, "text": reason} for reason, letter in letters.items()],
+    }
+
+
+def value_texts(row: Mapping[str, Any]) -> dict[str, str]:
+    """One row of the verdicts as text; ``seconds``, where ours were measured, is the value."""
+    printed = str(row["printed"])
+    seconds = row.get("seconds", nan)
+    return {
+        "case": str(row["case"]),
+        "printed": printed,
+        "computed": significant_text(seconds, TIMING_DIGITS)
+        if isfinite(seconds)
+        else computed_text(row["computed"], printed),
+        "difference": difference_text(row["difference"], row["computed"]),
+        "unit": str(row["unit"]),
+        "verdict": str(row["verdict"]),
+    }
+
+
+def records(table: pd.DataFrame) -> list[dict[str, Any]]:
+    """Rows of a table, an empty field as empty text or, among numbers, as nan."""
+    text = table.select_dtypes(exclude="number").columns
+    filled = table.astype({name: object for name in text}).fillna({name: "" for name in text})
+    return [{str(name): value for name, value in row.items()} for row in filled.to_dict("records")]
+
+
+def _letters() -> Iterator[str]:
+    for length in count(1):
+        yield from ("".join(letters) for letters in product(ascii_lowercase, repeat=length))
+
+
+def _common(rows: list[dict[str, str]], key: str) -> str:
+    """The text that all rows share, taken out of them."""
+    texts = {row[key] for row in rows}
+    if len(texts) != 1:
+        return ""
+    for row in rows:
+        row[key] = ""
+    return texts.pop()
+
+
+def _common_words(rows: list[dict[str, str]], key: str) -> str:
+    """The words with which all rows begin, taken out of them; each row keeps one word at least."""
+    if len({row[key] for row in rows}) == 1:
+        return _common(rows, key)
+    words = [row[key].split() for row in rows]
+    shortest = min(len(text) for text in words) - 1
+    same = next((n for n in range(shortest) if len({text[n] for text in words}) > 1), shortest)
+    for row, text in zip(rows, words, strict=True):
+        row[key] = " ".join(text[max(same, 0) :])
+    return " ".join(words[0][: max(same, 0)])
