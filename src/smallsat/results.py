@@ -8,14 +8,15 @@ import pandas as pd
 
 from smallsat.errors import InputError
 
-# Nine significant digits: more than any printed value, and short enough to read and to diff.
-CSV_FLOAT_FORMAT = "%.9g"
+# More than any printed value has, and short enough to read and to diff.
+CSV_DIGITS = 9
 
 
-def write_table(table: pd.DataFrame, path: Path) -> None:
+def write_table(table: pd.DataFrame, path: Path, digits: int = CSV_DIGITS) -> None:
     """Write a tidy table as Parquet or CSV (by suffix), atomically.
 
-    A killed run leaves either the old file or the new one, never half of one.
+    A killed run leaves either the old file or the new one, never half of one. ``digits`` is the
+    number of significant ones in a CSV file; values to be judged against exact fractions need 15.
     """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -23,7 +24,7 @@ def write_table(table: pd.DataFrame, path: Path) -> None:
     if path.suffix == ".parquet":
         table.to_parquet(partial, index=False, compression="zstd")
     else:
-        table.to_csv(partial, index=False, float_format=CSV_FLOAT_FORMAT, lineterminator="\n")
+        table.to_csv(partial, index=False, float_format=f"%.{digits}g", lineterminator="\n")
     partial.replace(path)
 
 
