@@ -26,7 +26,7 @@ def _digest() -> str:
     return digest.hexdigest()[:12]
 
 
-numba.config.CACHE_DIR = str(_PACKAGE / "__pycache__" / f"numba-{_digest()}")
+numba.config.CACHE_DIR = str(_PACKAGE / "__pycache__" / f"numba-{_digest()}")  # type: ignore[attr-defined]
 
 
 def compiled(function: Function) -> Function:
