@@ -15,13 +15,18 @@ from smallsat.evidence.reference import resolve
 def bound_value(row: Mapping[str, str], binding: Mapping[str, Any], config: Config) -> float:
     """The value of ours that a printed input feeds, in the printed unit.
 
-    A binding names a ``config`` key or a ``constant`` of the code. Where that is a list, the row's
-    component picks the entry: ``item 3``, ``min``/``max``, ``x``, ``2``, ``23`` (row 2, column 3).
+    A binding names a ``config`` key, a ``constant`` of the code, or a function that derives the
+    value from the configuration (``derived``). Where that is a list, ``entry`` or else the row's
+    component picks one: ``item 3``, ``min``/``max``, ``x``, ``2``, ``23`` (row 2, column 3).
     """
     if "config" in binding:
         value: Any = lookup(config, binding["config"])
+    elif "derived" in binding:
+        value = resolve(binding["derived"], "bindings.yaml")(config)
     else:
         value = resolve(binding["constant"], "bindings.yaml")
+    if "entry" in binding:
+        value = value[binding["entry"]]
     if isinstance(value, list | tuple | np.ndarray):
         value = _component(np.asarray(value), row["component"] or row["case"], row["id"])
     return float(value)
@@ -29,7 +34,10 @@ def bound_value(row: Mapping[str, str], binding: Mapping[str, Any], config: Conf
 
 def binding_name(binding: Mapping[str, Any]) -> str:
     """The name of what an input feeds, for a reader."""
-    return binding.get("config") or binding["constant"].replace("smallsat.", "").replace(":", ".")
+    if "config" in binding:
+        return binding["config"]
+    name = binding.get("derived") or binding["constant"]
+    return name.removeprefix("smallsat.").replace(":", ".")
 
 
 def agrees(row: Mapping[str, str], binding: Mapping[str, Any], value: float) -> bool:

@@ -2,13 +2,15 @@
 
 import hashlib
 import json
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
 from smallsat.config import Config, read_yaml
+from smallsat.errors import InputError
 from smallsat.evidence.ledger import VALUE_KINDS, read_artefacts, read_ledger
 from smallsat.evidence.summary import failures, verdict_counts
 from smallsat.evidence.verdicts import PENDING
@@ -74,7 +76,7 @@ def collect(project: Path, run: Path, config: Config, default: Config) -> Conten
 def _study(
     verdicts: pd.DataFrame, artefacts: list[dict[str, str]], results: Path, published: Path
 ) -> Content:
-    document = published.name
+    document, run = published.name, results.parents[2]
     own = [row for row in artefacts if row["document"] == document and row["target"]]
     tables = [row for row in own if row["kind"] == "table"]
     in_table = pd.Series(False, index=verdicts.index)
@@ -89,7 +91,11 @@ def _study(
     unreproducible = verdicts[verdicts["verdict"] == "unreproducible"]
     return {
         "tables": table_contents,
-        "figures": [_figure(row) for row in own if row["kind"] == "figure"],
+        "figures": [
+            _figure(run, row["target"].removesuffix(".svg"), row["id"], row["caption"])
+            for row in own
+            if row["kind"] == "figure"
+        ],
         "animations": [row for row in own if row["kind"] == "animation"],
         "elsewhere": [
             {"locator": locator, **value_table(rows)}
@@ -98,7 +104,7 @@ def _study(
         "inputs": input_groups(verdicts[verdicts["kind"] == "input"]),
         "errata": errata,
         "claims": claims,
-        "extras": _extras(published / "extras.yaml", results.parents[2]),
+        "extras": _extras(published / "extras.yaml", run),
         "notebooks": [
             f"data/results/{document}/notebooks/{path.name}"
             for path in sorted((results / "notebooks").glob("*.ipynb"))
@@ -114,9 +120,17 @@ def _study(
     }
 
 
-def _figure(artefact: Mapping[str, str]) -> Content:
-    stem = artefact["target"].removesuffix(".svg")
-    return {"id": artefact["id"], "caption": artefact["caption"], "stem": stem}
+def _figure(run: Path, stem: str, name: str = "", caption: str = "") -> Content:
+    """One figure, with the width in points at which it was drawn."""
+    path = run / f"{stem}.svg"
+    try:
+        with path.open(encoding="utf-8") as file:
+            width = re.search(r'<svg[^>]*? width="([\d.]+)pt"', file.read(2000))
+    except FileNotFoundError:
+        raise InputError(f"{path}: no such figure; run `snakemake {stem}.svg`") from None
+    if width is None:
+        raise InputError(f"{path}: damaged figure; delete it and run `snakemake` again")
+    return {"id": name, "caption": caption, "stem": stem, "width": float(width[1])}
 
 
 def _seconds(results: Path) -> dict[str, float]:
@@ -146,7 +160,7 @@ def _extras(path: Path, run: Path) -> list[Content]:
                 "header": [str(name) for name in table.columns],
                 "rows": [[_cell(value) for value in row] for row in table.itertuples(index=False)],
             }
-        extra["figures"] = [{"stem": stem} for stem in entry.get("figures") or []]
+        extra["figures"] = [_figure(run, stem) for stem in entry.get("figures") or []]
         extras.append(extra)
     return extras
 

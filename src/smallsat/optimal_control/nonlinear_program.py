@@ -1,0 +1,140 @@
+"""A nonlinear program with equality constraints and bounds, and the solvers we give it to."""
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import casadi as ca
+import numpy as np
+from scipy.optimize import minimize
+
+
+@dataclass(frozen=True)
+class NonlinearProgram:
+    """Minimise ``objective`` subject to ``constraints = 0`` and ``lower <= variables <= upper``.
+
+    Attributes
+    ----------
+    variables, objective, constraints
+        Symbolic expressions: (n,), scalar and (m,).
+    lower, upper
+        Bounds (n,); may be infinite.
+    """
+
+    variables: Any
+    objective: Any
+    constraints: Any
+    lower: np.ndarray
+    upper: np.ndarray
+
+
+@dataclass(frozen=True)
+class Solution:
+    """What a solver returned, its status read.
+
+    Attributes
+    ----------
+    variables
+        Final iterate (n,).
+    objective
+        Its objective.
+    converged
+        Whether the solver says that it converged.
+    status
+        The solver's own word for how it ended.
+    iterations
+        Number of major iterations.
+    violation
+        Largest absolute constraint error.
+    seconds
+        Wall time of the solve alone, without building the problem.
+    """
+
+    variables: np.ndarray
+    objective: float
+    converged: bool
+    status: str
+    iterations: int
+    violation: float
+    seconds: float = field(compare=False)
+
+
+class SlsqpSolver:
+    """Sequential quadratic programming with SciPy's SLSQP and exact first derivatives.
+
+    The functions are built once; `solve` may be called for many guesses and tolerances.
+    """
+
+    def __init__(self, program: NonlinearProgram, *, expand: bool = False):
+        x = program.variables
+        functions = (
+            ca.Function("f", [x], [program.objective]),
+            ca.Function("df", [x], [ca.gradient(program.objective, x)]),
+            ca.Function("g", [x], [program.constraints]),
+            ca.Function("dg", [x], [ca.jacobian(program.constraints, x)]),
+        )
+        if expand:
+            functions = tuple(function.expand() for function in functions)
+        self._objective, self._gradient, self._constraints, self._jacobian = functions
+        self._bounds = list(zip(program.lower, program.upper, strict=True))
+
+    def solve(self, guess: np.ndarray, tolerance: float, iterations: int = 1000) -> Solution:
+        """Solve from a guess (n,); ``tolerance`` is SLSQP's ``ftol``."""
+        began = time.perf_counter()
+        result = minimize(
+            lambda z: float(self._objective(z)),
+            guess,
+            jac=lambda z: self._gradient(z).full().ravel(),
+            bounds=self._bounds,
+            constraints={
+                "type": "eq",
+                "fun": lambda z: self._constraints(z).full().ravel(),
+                "jac": lambda z: self._jacobian(z).full(),
+            },
+            method="SLSQP",
+            options={"ftol": tolerance, "maxiter": iterations},
+        )
+        seconds = time.perf_counter() - began
+        violation = float(np.max(np.abs(self._constraints(result.x).full())))
+        return Solution(
+            variables=result.x,
+            objective=float(result.fun),
+            converged=bool(result.success),
+            status=str(result.message),
+            iterations=int(result.nit),
+            violation=violation,
+            seconds=seconds,
+        )
+
+
+class IpoptSolver:
+    """Interior-point method IPOPT with exact first and second derivatives."""
+
+    def __init__(self, program: NonlinearProgram, *, expand: bool = False, **options: Any):
+        self._program = program
+        settings = {"print_level": 0, "sb": "yes", "tol": 1e-10, "max_iter": 500} | options
+        self._solver = ca.nlpsol(
+            "solver",
+            "ipopt",
+            {"x": program.variables, "f": program.objective, "g": program.constraints},
+            {"print_time": False, "expand": expand, "ipopt": settings},
+        )
+
+    def solve(self, guess: np.ndarray | Sequence[float]) -> Solution:
+        """Solve from a guess (n,)."""
+        began = time.perf_counter()
+        result = self._solver(
+            x0=guess, lbx=self._program.lower, ubx=self._program.upper, lbg=0.0, ubg=0.0
+        )
+        seconds = time.perf_counter() - began
+        statistics = self._solver.stats()
+        return Solution(
+            variables=result["x"].full().ravel(),
+            objective=float(result["f"]),
+            converged=bool(statistics["success"]),
+            status=str(statistics["return_status"]),
+            iterations=int(statistics["iter_count"]),
+            violation=float(np.max(np.abs(result["g"].full()))),
+            seconds=seconds,
+        )

@@ -1,0 +1,185 @@
+"""Indirect shooting: the two-point boundary value problem of the costate, single and multiple."""
+
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import casadi as ca
+import numpy as np
+import pandas as pd
+from scipy.integrate import solve_ivp
+from scipy.optimize import least_squares
+
+from smallsat.optimal_control.runge_kutta import integrate, step_function
+from smallsat.transfer.problem import COSTATES, STATES, TransferProblem
+
+
+@dataclass(frozen=True)
+class Extremal:
+    """A solution of the necessary conditions.
+
+    Attributes
+    ----------
+    nodes
+        State and costate (K, 10) at the start of each interval.
+    final_time
+        Time of flight.
+    iterations
+        Residual evaluations of the root finder that were accepted or rejected steps.
+    error
+        Largest residual: continuity, boundary and transversality conditions.
+    seconds
+        Wall time of the solve alone.
+    """
+
+    nodes: np.ndarray
+    final_time: float
+    iterations: int
+    error: float
+    seconds: float
+
+
+class ConvergenceError(Exception):
+    """A method that did not converge where the study rests on it."""
+
+
+def solve_extremal(
+    problem: TransferProblem, intervals: int, guess: Mapping[str, Any], steps: int
+) -> Extremal:
+    """Solve the necessary conditions by (multiple) shooting from the document's guess.
+
+    Unknowns are the initial costate, state and costate at interior nodes, and the final time
+    (sections 3.1, 3.2). A trust-region least-squares method with the exact Jacobian is used: it
+    converges from the document's guess for every number of intervals.
+
+    Parameters
+    ----------
+    problem
+        The transfer.
+    intervals
+        K; 1 for single shooting.
+    guess
+        ``initial_costate``, ``interior_state`` and ``indirect_final_time`` of the configuration.
+    steps
+        Integration steps over the whole flight.
+
+    Raises
+    ------
+    ConvergenceError
+        If the residual does not vanish or the final time is not positive.
+    """
+    residual, jacobian = _shooting_functions(problem, intervals, steps)
+    costate = [guess["initial_costate"][name] for name in COSTATES]
+    interior = [guess["interior_state"]] * 5 + costate
+    start = np.array(costate + interior * (intervals - 1) + [guess["indirect_final_time"]])
+
+    began = time.perf_counter()
+    result = least_squares(
+        lambda z: residual(z).full().ravel(),
+        start,
+        jac=lambda z: jacobian(z).full(),
+        method="trf",
+        xtol=1e-15,
+        ftol=1e-15,
+        gtol=1e-15,
+        max_nfev=2000,
+    )
+    seconds = time.perf_counter() - began
+    error = float(np.max(np.abs(result.fun)))
+    if error > 1e-9 or result.x[-1] <= 0:
+        raise ConvergenceError(
+            f"indirect shooting, K = {intervals}: residual {error:.1e}, t_f = {result.x[-1]:.4f}"
+        )
+    nodes = np.concatenate([problem.initial_state, result.x[:-1]]).reshape(intervals, 10)
+    return Extremal(nodes, float(result.x[-1]), int(result.nfev), error, seconds)
+
+
+def fly_extremal(
+    problem: TransferProblem, extremal: Extremal, samples: int
+) -> tuple[np.ndarray, pd.DataFrame]:
+    """Integrate an extremal from its initial costate with LSODA, resetting nothing at the nodes.
+
+    Parameters
+    ----------
+    problem, extremal
+        What is flown.
+    samples
+        Rows of the table in each interval.
+
+    Returns
+    -------
+    final
+        State and costate (10,) at the end.
+    table
+        Columns segment, tau, t, the five states, beta (rad, 0 to 2 pi), the five costates, and
+        the Hamiltonian.
+    """
+    count = len(extremal.nodes)
+    times = np.linspace(0.0, extremal.final_time, count + 1)
+    y = extremal.nodes[0]
+    frames = []
+    for segment in range(count):
+        grid = np.linspace(times[segment], times[segment + 1], samples)
+        solution = solve_ivp(
+            lambda _, y: problem.extremal_rate(y[:5], y[5:]),
+            (grid[0], grid[-1]),
+            y,
+            method="LSODA",
+            t_eval=grid,
+            rtol=1e-12,
+            atol=1e-13,
+        )
+        y = solution.y[:, -1]
+        table = pd.DataFrame(solution.y.T, columns=[*STATES, *COSTATES])
+        table.insert(0, "t", grid)
+        table.insert(0, "tau", 2 * grid / extremal.final_time - 1)
+        table.insert(0, "segment", segment)
+        table.insert(8, "beta", primer_angle(solution.y[5:]))
+        table["hamiltonian"] = problem.hamiltonian(solution.y[:5], solution.y[5:])
+        frames.append(table)
+    return y, pd.concat(frames, ignore_index=True)
+
+
+def condition_error(problem: TransferProblem, final: np.ndarray) -> float:
+    """Largest error of the boundary and transversality conditions (equations 35-37) at the end."""
+    state, costate = final[:5], final[5:]
+    errors = [
+        *problem.terminal_error(state),
+        costate[1],
+        costate[4] - 1.0,
+        problem.hamiltonian(state, costate),
+    ]
+    return float(np.max(np.abs(errors)))
+
+
+def primer_angle(costate: np.ndarray) -> np.ndarray:
+    """Thrust angle (rad, 0 to 2 pi) along the primer vector (equation 34)."""
+    return np.mod(np.arctan2(costate[2], costate[3]), 2 * np.pi)
+
+
+def _shooting_functions(
+    problem: TransferProblem, intervals: int, steps: int
+) -> tuple[ca.Function, ca.Function]:
+    def rate(_: Any, y: Any, p: Any) -> list[Any]:
+        return [p * value for value in problem.extremal_rate(y[:5], y[5:])]
+
+    step = step_function(rate, 10, 1)
+    unknown = ca.MX.sym("z", 10 * intervals - 4)
+    final_time = unknown[-1]
+    nodes = ca.reshape(ca.vertcat(ca.DM(problem.initial_state), unknown[:-1]), 10, intervals)
+    residual = []
+    for k in range(intervals):
+        end = integrate(step, nodes[:, k], final_time, k / intervals, (k + 1) / intervals,
+                        max(1, steps // intervals))
+        if k < intervals - 1:
+            residual.append(end - nodes[:, k + 1])
+            continue
+        state, costate = end[:5], end[5:]
+        residual += problem.terminal_error(state)
+        residual += [costate[1], costate[4] - 1.0, problem.hamiltonian(state, costate)]
+    vector = ca.vertcat(*residual)
+    return (
+        ca.Function("residual", [unknown], [vector]),
+        ca.Function("jacobian", [unknown], [ca.jacobian(vector, unknown)]),
+    )
