@@ -1,0 +1,45 @@
+"""Figures: equal data give equal bytes in all formats, and the data drawn lie beside them."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+import pytest
+
+from smallsat.report.figure import FORMATS, save_figure
+from smallsat.report.style import apply_style
+from smallsat.results import read_table
+
+
+def draw(stem, scale=1.0):
+    apply_style()
+    time = np.linspace(0.0, 3.0, 50)
+    data = pd.DataFrame({"time": time, "radius": 1.0 + scale * time**2})
+    figure, axes = plt.subplots()
+    axes.plot(data["time"], data["radius"], label=r"$r(t)$")
+    # Clipping and markers give SVG ids, which are random unless salted.
+    axes.scatter(time[::10], data["radius"][::10])
+    axes.legend()
+    save_figure(figure, stem, data)
+    plt.close(figure)
+    return data
+
+
+@pytest.mark.parametrize("suffix", FORMATS)
+def test_equal_data_give_equal_bytes_and_other_data_do_not(tmp_path, suffix):
+    draw(tmp_path / "one")
+    draw(tmp_path / "two")
+    draw(tmp_path / "other", scale=1.01)
+    one = (tmp_path / f"one.{suffix}").read_bytes()
+    assert one == (tmp_path / f"two.{suffix}").read_bytes()
+    assert one != (tmp_path / f"other.{suffix}").read_bytes()
+
+
+def test_the_data_drawn_lie_beside_the_figure(tmp_path):
+    data = draw(tmp_path / "new/folder/fig-01")
+    pd.testing.assert_frame_equal(read_table(tmp_path / "new/folder/fig-01.csv"), data, rtol=1e-8)
+
+
+def test_fonts_travel_with_the_file(tmp_path):
+    draw(tmp_path / "one")
+    assert "<text" not in (tmp_path / "one.svg").read_text()
+    assert b"/FontFile2" in (tmp_path / "one.pdf").read_bytes()
