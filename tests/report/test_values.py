@@ -5,7 +5,8 @@ from math import nan
 import pandas as pd
 
 from smallsat.report.inputs import input_groups
-from smallsat.report.values import of_table, value_table
+from smallsat.report.values import of_table, read_findings, value_table
+from smallsat.results import write_table
 
 
 def verdicts(**columns: list) -> pd.DataFrame:
@@ -29,6 +30,14 @@ def verdicts(**columns: list) -> pd.DataFrame:
 def test_a_table_has_its_own_rows_and_its_footnote_but_not_those_of_table_10():
     table = verdicts(locator=["Table 1", "Table 1 footnote", "Table 10", "Section 1"])
     assert list(of_table(table, "Table 1")["locator"]) == ["Table 1", "Table 1 footnote"]
+
+
+def test_literals_are_read_as_printed_and_empty_columns_as_empty_text(tmp_path):
+    write_table(verdicts(printed=["0.75550", "1.0"], computed=[0.7555, nan]), tmp_path / "v.csv")
+    table = read_findings(tmp_path / "v.csv")
+    assert list(table["printed"]) == ["0.75550", "1.0"]
+    assert list(table["case"]) == ["", ""]
+    assert table["computed"].dtype == float
 
 
 def test_words_that_all_cases_share_are_given_once():

@@ -16,7 +16,14 @@ from smallsat.evidence.summary import failures, verdict_counts
 from smallsat.evidence.verdicts import PENDING
 from smallsat.report.inputs import input_groups
 from smallsat.report.number import significant_text
-from smallsat.report.values import Content, of_table, records, value_table, value_texts
+from smallsat.report.values import (
+    Content,
+    of_table,
+    read_findings,
+    records,
+    value_table,
+    value_texts,
+)
 from smallsat.results import read_table
 
 # Digits of numbers in tables that go beyond a document.
@@ -40,7 +47,7 @@ def collect(project: Path, run: Path, config: Config, default: Config) -> Conten
     published, results = project / "data/published", run / "data/results"
     ledger = read_ledger(published / "values.csv")
     kinds = pd.Series({row["id"]: row["kind"] for row in ledger})
-    verdicts = read_table(results / "verdicts.csv")
+    verdicts = read_findings(results / "verdicts.csv")
     verdicts["kind"] = verdicts["id"].map(kinds)
     verdicts["seconds"] = verdicts["id"].map(_seconds(results))
     artefacts = read_artefacts(published / "artefacts.csv")
@@ -86,8 +93,8 @@ def _study(
         in_table[cells.index] = True
         table_contents.append({**row, **value_table(cells)})
     elsewhere = verdicts[~in_table & (verdicts["kind"] != "input")]
-    errata = records(read_table(results / "errata.csv"))
-    claims = records(read_table(results / "claims.csv"))
+    errata = records(read_findings(results / "errata.csv"))
+    claims = records(read_findings(results / "claims.csv"))
     unreproducible = verdicts[verdicts["verdict"] == "unreproducible"]
     return {
         "tables": table_contents,

@@ -3,18 +3,31 @@
 from collections.abc import Iterator, Mapping
 from itertools import count, product
 from math import isfinite, nan
+from pathlib import Path
 from string import ascii_lowercase
 from typing import Any
 
 import pandas as pd
 
 from smallsat.report.number import computed_text, difference_text, significant_text
+from smallsat.results import read_table
 
 Content = dict[str, Any]
 # Said once, where the report explains its verdicts.
 OBVIOUS = ("equal to the printed digits", "the study is not built yet")
 # Seconds vary from run to run, so more digits would say nothing.
 TIMING_DIGITS = 3
+
+
+# Columns of verdicts, errata and claims that are no text.
+NUMBERS = ("computed", "difference", "tolerance", "holds")
+
+
+def read_findings(path: Path) -> pd.DataFrame:
+    """Verdicts, errata or claims, with every literal as printed: ``0.75550`` keeps its zeros."""
+    table = read_table(path)
+    text = pd.read_csv(path, dtype=str, keep_default_na=False)
+    return table.assign(**{name: text[name] for name in text.columns if name not in NUMBERS})
 
 
 def of_table(verdicts: pd.DataFrame, table: str) -> pd.DataFrame:
@@ -73,10 +86,8 @@ def value_texts(row: Mapping[str, Any]) -> dict[str, str]:
 
 
 def records(table: pd.DataFrame) -> list[dict[str, Any]]:
-    """Rows of a table, an empty field as empty text or, among numbers, as nan."""
-    text = table.select_dtypes(exclude="number").columns
-    filled = table.astype({name: object for name in text}).fillna({name: "" for name in text})
-    return [{str(name): value for name, value in row.items()} for row in filled.to_dict("records")]
+    """Rows of a table."""
+    return [{str(name): value for name, value in row.items()} for row in table.to_dict("records")]
 
 
 def _letters() -> Iterator[str]:

@@ -1,0 +1,135 @@
+"""Errata, claims and the commands: prove and judge a study, merge all, summarise, exit status."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pandas as pd
+import pytest
+import yaml
+
+from smallsat.errors import InputError
+from smallsat.evidence.claims import judge_claims, judged
+from smallsat.evidence.errata import Proof, prove_errata
+from smallsat.evidence.ledger import VALUE_COLUMNS, read_ledger
+from smallsat.evidence.observation import Observation, observations_table
+from smallsat.evidence.summary import failures, verdict_counts
+from smallsat.evidence.verdicts import pending
+from smallsat.results import read_table, write_table
+
+HERE = "tests_of_commands"
+
+
+@pytest.fixture(autouse=True)
+def importable(monkeypatch):
+    """Proofs and predicates are named by module; this one goes by the name `HERE`."""
+    monkeypatch.setitem(sys.modules, HERE, sys.modules[__name__])
+
+
+def proof_of_sign(config, results: Path) -> Proof:
+    return Proof(config["sign"] < 0, "1", "-1", f"the sign is {config['sign']}")
+
+
+def sign_is_negative(config, results: Path):
+    return judged(config["sign"] < 0, f"sign {config['sign']}")
+
+
+@pytest.mark.parametrize(("sign", "holds"), [(-1, True), (1, False)])
+def test_an_erratum_holds_if_its_proof_does(sign, holds, tmp_path):
+    entry = {"key": "sign", "locator": "Eq. 1", "printed": "+", "correct": "-"}
+    entries = [entry | {"proof": f"{HERE}:proof_of_sign"}]
+    (row,) = prove_errata(entries, {"sign": sign}, tmp_path, "errata.yaml").itertuples()
+    assert row.holds is holds
+    assert (row.key, row.explanation, row.as_corrected) == ("sign", "", "-1")
+
+
+@pytest.mark.parametrize(("sign", "outcome"), [(-1, "holds"), (1, "fails")])
+def test_a_claim_is_judged_by_its_predicate(sign, outcome, tmp_path):
+    entries = [
+        {"id": "c", "locator": "Eq. 1", "claim": "down", "predicate": f"{HERE}:sign_is_negative"}
+    ]
+    (row,) = judge_claims(entries, {"sign": sign}, tmp_path, "claims.yaml").itertuples()
+    assert (row.outcome, row.evidence) == (outcome, f"sign {sign}")
+
+
+@pytest.mark.parametrize("name", [f"{HERE}:no_such", "no.such.module:f", "no colon"])
+def test_a_proof_that_does_not_exist_is_named(name, tmp_path):
+    with pytest.raises(InputError, match=r"errata.yaml: '.*' does not exist"):
+        prove_errata([{"key": "k", "proof": name}], {}, tmp_path, "errata.yaml")
+
+
+LEDGER = """\
+transfer/a,transfer,Table 1,time,,,3.25,s,result,
+transfer/b,transfer,Table 1,radius,,,1.5,,input,
+transfer/c,transfer,Table 1,elapsed,,,0.1,s,timing,
+mars/a,mars,Table 1,angle,,,35,deg,input,
+"""
+
+
+@pytest.fixture
+def published(tmp_path):
+    """A small ledger with one study."""
+    folder = tmp_path / "published"
+    (folder / "transfer").mkdir(parents=True)
+    (folder / "values.csv").write_text(",".join(VALUE_COLUMNS) + "\n" + LEDGER)
+    entries = {
+        "rules": [],
+        "errata": [],
+        "claims": [],
+        "bindings": [{"ids": ["transfer/b"], "config": "transfer.radius"}],
+    }
+    for name, content in entries.items():
+        (folder / f"transfer/{name}.yaml").write_text(yaml.safe_dump(content))
+    return folder
+
+
+def evidence(*arguments):
+    command = [sys.executable, "-m", "smallsat.evidence", *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+@pytest.mark.parametrize(("time", "status"), [(3.2461, 0), (3.3, 1)])
+def test_from_observations_to_a_summary(published, tmp_path, time, status):
+    """A study is judged, merged with what is pending, and a mismatch makes the summary fail."""
+    results = tmp_path / "transfer"
+    write_table(observations_table([Observation("transfer/a", time)]), results / "observations.csv")
+    config = json.dumps({"transfer": {"radius": 1.5}})
+    study = ["study", "transfer", "--config", config, "--published", published]
+    assert evidence(*study, "--results", results).returncode == 0
+    merged = tmp_path / "verdicts.csv"
+    merge = ["merge", "--published", published, "--output", merged, results / "verdicts.csv"]
+    assert evidence(*merge).returncode == 0
+
+    verdicts = read_table(merged).set_index("id")["verdict"]
+    assert list(verdicts.index) == ["transfer/a", "transfer/b", "transfer/c", "mars/a"]
+    assert verdicts["transfer/a"] == ("mismatch" if status else "reproduced")
+    assert list(verdicts[1:]) == ["reproduced", "context", "pending"]
+
+    summary = evidence("summary", merged, "--published", published)
+    assert summary.returncode == status
+    assert f"3 of 4 published values have a verdict, {status} of them wrong." in summary.stdout
+    assert ("transfer/a: printed 3.25, computed 3.3" in summary.stdout) == bool(status)
+    assert evidence("summary", merged, "--published", published, "--what-if").returncode == 0
+
+
+def test_missing_observations_are_one_line_and_status_2(published, tmp_path):
+    study = ["study", "transfer", "--config", "{}", "--published", published]
+    run = evidence(*study, "--results", tmp_path / "none")
+    assert run.returncode == 2
+    assert run.stderr.startswith("smallsat: ")
+    assert "observations.csv: no such results file; run `snakemake" in run.stderr
+    assert run.stderr.count("\n") == 1
+
+
+def test_counts_have_a_column_for_each_verdict_and_failures_are_mismatches(published):
+    rows = read_ledger(published / "values.csv")
+    kinds = pd.Series({row["id"]: row["kind"] for row in rows})
+    verdicts = pending(rows)
+    verdicts.loc[0, "verdict"] = "mismatch"
+    verdicts.loc[1, "verdict"] = "no such verdict"
+    counts = verdict_counts(verdicts, kinds)
+    assert counts.loc[("transfer", "result"), "mismatch"] == 1
+    assert counts.loc[("mars", "input"), "pending"] == 1
+    assert list(counts.columns)[-2:] == ["mismatch", "pending"]
+    assert list(failures(verdicts)["id"]) == ["transfer/a", "transfer/b"]

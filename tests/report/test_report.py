@@ -1,0 +1,231 @@
+"""The report of a small run: content, PDF and page, for the reproduction and a what-if run."""
+
+import json
+import shutil
+from html.parser import HTMLParser
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import pandas as pd
+import pytest
+import yaml
+
+from smallsat.errors import InputError
+from smallsat.evidence.claims import CLAIM_COLUMNS
+from smallsat.evidence.errata import ERRATA_COLUMNS
+from smallsat.evidence.ledger import ARTEFACT_COLUMNS, VALUE_COLUMNS, read_ledger
+from smallsat.evidence.verdicts import VERDICT_COLUMNS, pending
+from smallsat.report.content import collect
+from smallsat.report.figure import save_figure
+from smallsat.report.style import apply_style
+from smallsat.report.typesetting import compile_report
+from smallsat.results import write_json, write_table
+
+PROJECT = Path(__file__).parents[2]
+CONFIG = {"run": "", "transfer": {"radius": 1.5, "degrees": [2, 3]}}
+VALUES = """\
+transfer/a,transfer,Table 1,terminal time,Direct N=2,,3.24694,s,result,
+transfer/b,transfer,Table 1,terminal mass,Direct N=2,,-0.7555,,result,
+transfer/c,transfer,Section 3,elapsed time,Direct N=2,,0.156,s,timing,
+transfer/d,transfer,Listing 4,radius,,,1.5,,input,
+mars/a,mars,Table 1,angle,,,35,deg,result,
+slew/a,slew,Table 1,angle,,,35,deg,result,
+racing/a,racing,Table 1,angle,,,35,deg,result,
+rendezvous/a,rendezvous,Table 1,angle,,,35,deg,result,
+"""
+ARTEFACTS = """\
+transfer,Table 1,table,Performance,computed,data/results/transfer/tables/table-1.csv
+transfer,Figure 1,figure,Angle \\beta,computed,figures/transfer/fig-01.svg
+transfer,Animation 1,animation,A film,computed,figures/transfer/animation-1.mp4
+mars,Figure 1,figure,Orbit,computed,
+"""
+OUTCOMES = {
+    "transfer/a": (3.2469412, 1.2e-6, "reproduced", "equal to the printed digits"),
+    "transfer/b": (-0.7444, 0.0111, "mismatch", "not explained"),
+    "transfer/c": (float("nan"), float("nan"), "context", "depends on the machine"),
+    "transfer/d": (1.5, 0.0, "reproduced", "feeds transfer.radius"),
+}
+
+
+def write_run(run: Path, published: Path) -> None:
+    """Results of one built study; the others are pending."""
+    results = run / "data/results"
+    verdicts = pending(read_ledger(published / "values.csv")).set_index("id")
+    for identifier, outcome in OUTCOMES.items():
+        columns = ["computed", "difference", "verdict", "reason"]
+        verdicts.loc[identifier, columns] = list(outcome)
+    verdicts = verdicts.reset_index()[list(VERDICT_COLUMNS)]
+    write_table(verdicts, results / "verdicts.csv")
+    erratum = dict.fromkeys(ERRATA_COLUMNS, "two mass rows are copies") | {"holds": True}
+    claim = dict.fromkeys(CLAIM_COLUMNS, "the time falls") | {"outcome": "fails"}
+    tables = {
+        "errata": pd.DataFrame([erratum | {"key": "copied-row"}]),
+        "claims": pd.DataFrame([claim]),
+        "timings": pd.DataFrame({"id": ["transfer/c"], "seconds": [0.01234567]}),
+        "beyond": pd.DataFrame({"solver": ["ours"], "time": [3.246812345]}),
+        "tables/table-1": verdicts.head(2),
+    }
+    for name, table in tables.items():
+        write_table(table, results / f"transfer/{name}.csv")
+    apply_style()
+    for name, width in (("fig-01", 3.0), ("beyond", 6.3)):
+        figure, axes = plt.subplots(figsize=(width, 2.0))
+        axes.plot([0, 1])
+        save_figure(figure, run / f"figures/transfer/{name}", pd.DataFrame({"y": [0, 1]}))
+        plt.close(figure)
+
+
+@pytest.fixture(scope="module")
+def project(tmp_path_factory):
+    """The project's own templates around a small ledger."""
+    folder = tmp_path_factory.mktemp("project")
+    shutil.copytree(PROJECT / "report", folder / "report", ignore=shutil.ignore_patterns("build"))
+    # Chapters quote values of the whole ledger.
+    for chapter in (folder / "report/chapters").glob("*.typ"):
+        chapter.unlink()
+    (folder / "report/chapters").mkdir(exist_ok=True)
+    (folder / "report/chapters/transfer.typ").write_text(
+        '#import "/report/parts/content.typ": setting, printed, computed\n'
+        '$ dot(r) = v $ with radius #setting("transfer.radius"), degrees '
+        '#setting("transfer.degrees"), time #printed("transfer/a") or #computed("transfer/a").'
+    )
+    published = folder / "data/published"
+    (published / "transfer").mkdir(parents=True)
+    (published / "values.csv").write_text(",".join(VALUE_COLUMNS) + "\n" + VALUES)
+    (published / "artefacts.csv").write_text(",".join(ARTEFACT_COLUMNS) + "\n" + ARTEFACTS)
+    extra = {
+        "title": "Other solvers",
+        "text": "The same problem, solved otherwise.",
+        "table": "data/results/transfer/beyond.csv",
+        "figures": ["figures/transfer/beyond"],
+    }
+    (published / "transfer/extras.yaml").write_text(yaml.safe_dump([extra]))
+    return folder
+
+
+def build(project: Path, folder: str, config: dict) -> Path:
+    run = project / folder
+    write_run(run, project / "data/published")
+    content = run / "report/build/content.json"
+    write_json(collect(project, run, config, CONFIG), content)
+    for suffix in ("pdf", "html"):
+        compile_report(content, project, content.with_name(f"report.{suffix}"))
+    return content.parent
+
+
+@pytest.fixture(scope="module")
+def reproduction(project):
+    return build(project, ".", CONFIG)
+
+
+class Page(HTMLParser):
+    """Text and links of a page."""
+
+    def __init__(self, path: Path):
+        super().__init__()
+        self.links: list[str] = []
+        self.ids: set[str] = set()
+        self.pieces: list[str] = []
+        self.feed(path.read_text())
+        # Keys may break at a space of no width.
+        self.text = " ".join("".join(self.pieces).replace("\u200b", "").split())
+
+    def handle_starttag(self, tag, attrs):
+        """Note where an element leads, and its name."""
+        named = dict(attrs)
+        self.links += [named[key] for key in ("src", "href") if named.get(key)]
+        self.ids.add(named.get("id"))
+        if tag not in ("span", "code", "a", "sup", "em", "strong"):
+            self.pieces.append(" ")
+
+    def handle_data(self, data):
+        """Note text."""
+        self.pieces.append(data)
+
+
+def test_the_page_shows_printed_computed_difference_and_verdict(reproduction):
+    text = Page(reproduction / "report.html").text
+    assert "terminal time s 3.24694 3.2469412 +1.2×10-6 reproduced" in text
+    assert "terminal mass -0.7555 -0.744400 +0.011 mismatch a" in text
+    assert "a not explained" in text
+    assert "0.156 0.0123 — context" in text
+
+
+def test_the_page_has_every_part_of_a_study(reproduction):
+    page = Page(reproduction / "report.html")
+    for part in (
+        "Method", "Tables", "Figures", "Animations", "Values printed in the text", "Errata",
+        "Claims", "Beyond the document", "Inputs",
+    ):  # fmt: skip
+        assert part in page.text
+    assert "with radius 1.5, degrees 2, 3, time 3.24694 or 3.2469412" in page.text
+    assert "Angle β" in page.text
+    assert "ours 3.246812" in page.text
+    assert "transfer.radius 1.5 reproduced Listing 4" in page.text
+    assert page.text.count("This study is not built yet") == 4
+    assert "transfer-figure-1" in page.ids
+
+
+def test_the_page_links_figures_as_files_and_every_link_leads_somewhere(reproduction):
+    page = Page(reproduction / "report.html")
+    assert "../../figures/transfer/fig-01.svg" in page.links
+    assert "base64" not in (reproduction / "report.html").read_text()
+    for link in page.links:
+        if link.startswith("#"):
+            assert link[1:] in page.ids
+        elif not link.endswith(".mp4"):  # films are made only when asked for
+            assert (reproduction / link).exists(), link
+
+
+def test_what_did_not_hold_stands_on_the_front(reproduction):
+    front = Page(reproduction / "report.html").text
+    front = front.split("What did not hold")[2].split("How to read this report")[0]
+    for finding in ("transfer/b", "two mass rows are copies", "the time falls"):
+        assert finding in front
+
+
+def test_both_formats_are_byte_identical_when_built_again(project, reproduction):
+    for suffix in ("pdf", "html"):
+        report = reproduction / f"report.{suffix}"
+        before = report.read_bytes()
+        compile_report(reproduction / "content.json", project, report)
+        assert report.read_bytes() == before
+
+
+def test_a_what_if_run_says_so_and_what_it_changes(project, reproduction):
+    config = {"run": "wide", "transfer": {"radius": 2.5, "degrees": [2, 3]}}
+    what_if = build(project, "runs/wide", config)
+    page = Page(what_if / "report.html")
+    assert "what-if run" in page.text
+    assert "2.5 1.5" in page.text
+    assert "../../figures/transfer/fig-01.svg" in page.links
+    assert "This is the reproduction" in Page(reproduction / "report.html").text
+    digests = [
+        json.loads((build / "content.json").read_text())["run"]["digest"]
+        for build in (what_if, reproduction)
+    ]
+    assert digests[0] != digests[1]
+
+
+def test_a_missing_figure_or_table_names_the_command_that_makes_it(project, tmp_path):
+    run = project / "runs/damaged"
+    write_run(run, project / "data/published")
+    (run / "figures/transfer/fig-01.svg").unlink()
+    with pytest.raises(InputError, match=r"no such figure; run `snakemake figures/transfer/fig-01"):
+        collect(project, run, CONFIG, CONFIG)
+    (run / "data/results/transfer/claims.csv").unlink()
+    with pytest.raises(InputError, match=r"claims.csv: no such results file; run `snakemake"):
+        collect(project, run, CONFIG, CONFIG)
+
+
+def test_a_broken_template_is_named_and_the_old_report_stays(project, reproduction):
+    chapter = project / "report/chapters/transfer.typ"
+    good, report = chapter.read_text(), reproduction / "report.pdf"
+    before = report.read_bytes()
+    chapter.write_text("#no-such-function()")
+    try:
+        with pytest.raises(InputError, match=r"not typeset: unknown variable.*transfer.typ:1:1"):
+            compile_report(reproduction / "content.json", project, report)
+    finally:
+        chapter.write_text(good)
+    assert report.read_bytes() == before
