@@ -47,7 +47,7 @@ rule report_content:
     benchmark:
         "logs/report/content.benchmark.tsv"
     params:
-        project=project("."),
+        project=lambda _, input: Path(input.documents).parent.parent,
         config=as_json(config),
     shell:
         "python -m smallsat.report content --project {params.project} --config {params.config:q}"
@@ -57,10 +57,11 @@ rule report_content:
 rule report:
     input:
         sources=sources("smallsat.report.__main__", "smallsat.report.typesetting"),
-        templates=[
+        template=project("report/report.typ"),
+        parts=[
             project(path.relative_to(ROOT))
             for path in sorted((ROOT / "report").rglob("*"))
-            if path.suffix in (".typ", ".css")
+            if path.suffix in (".typ", ".css") and path.name != "report.typ"
         ],
         content="report/build/content.json",
         # The page shows the SVG, the PDF takes in the PDF.
@@ -74,7 +75,7 @@ rule report:
     benchmark:
         "logs/report/report.benchmark.tsv"
     params:
-        project=project("."),
+        project=lambda _, input: Path(input.template).parent.parent,
     shell:
         "(python -m smallsat.report compile {input.content} --project {params.project}"
         " --output {output.pdf}"
@@ -91,3 +92,23 @@ rule all:
         FIGURES,
     log:
         "logs/all.log",
+
+
+# `snakemake transfer`: the tables, figures and verdicts of one study.
+for study in STUDIES:
+
+    rule:
+        name:
+            study
+        input:
+            targets(study, "table", "figure"),
+            f"data/results/{study}/verdicts.csv",
+        log:
+            f"logs/{study}.log",
+
+
+rule animations:
+    input:
+        ANIMATIONS,
+    log:
+        "logs/animations.log",
