@@ -94,19 +94,6 @@ rule all:
         "logs/all.log",
 
 
-# `snakemake transfer`: the tables, figures and verdicts of one study.
-for study in STUDIES:
-
-    rule:
-        name:
-            study
-        input:
-            targets(study, "table", "figure"),
-            f"data/results/{study}/verdicts.csv",
-        log:
-            f"logs/{study}.log",
-
-
 rule animations:
     input:
         ANIMATIONS,
