@@ -71,6 +71,15 @@ def test_a_repeated_remark_is_one_letter_and_the_obvious_one_is_left_out():
     ]
 
 
+def test_remarks_that_differ_in_a_residual_only_are_one_with_the_largest():
+    reasons = [f"shorter; constraints met to {r} in a check" for r in ("9e-12", "3e-11", "9e-12")]
+    table = value_table(verdicts(reason=reasons))
+    (note,) = table["notes"]
+    assert note["text"] == "shorter; constraints met to 3e-11 or better in a check"
+    single = value_table(verdicts(reason=reasons[:1]))
+    assert single["notes"][0]["text"] == reasons[0]
+
+
 def test_our_seconds_stand_beside_printed_seconds():
     table = value_table(verdicts(printed=["0.156104"], computed=[nan], seconds=[0.0123456]))
     assert table["rows"][0]["computed"] == "0.0123"

@@ -1,6 +1,7 @@
 """Tables of published values beside ours, with repeated remarks gathered below the table."""
 
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import count, product
 from math import isfinite, nan
 from pathlib import Path
@@ -15,6 +16,8 @@ from smallsat.results import read_table
 Content = dict[str, Any]
 # Said once, where the report explains its verdicts.
 OBVIOUS = ("equal to the printed digits", "the study is not built yet")
+# How a surpassing value says how well it meets its constraints.
+RESIDUAL = re.compile(r"constraints met to (\d\S*)")
 # Seconds vary from run to run, so more digits would say nothing.
 TIMING_DIGITS = 3
 
@@ -52,8 +55,8 @@ def value_table(verdicts: pd.DataFrame) -> Content:
     letters: dict[str, str] = {}
     names = _letters()
     rows = []
-    for row in records(verdicts):
-        reason = str(row["reason"])
+    remarks = _without_own_residuals(str(reason) for reason in verdicts["reason"])
+    for row, reason in zip(records(verdicts), remarks, strict=True):
         if reason in OBVIOUS:
             letter = ""
         else:
@@ -88,6 +91,23 @@ def value_texts(row: Mapping[str, Any]) -> dict[str, str]:
 def records(table: pd.DataFrame) -> list[dict[str, Any]]:
     """Rows of a table."""
     return [{str(name): value for name, value in row.items()} for row in table.to_dict("records")]
+
+
+def _without_own_residuals(reasons: Iterable[str]) -> list[str]:
+    """The same remarks, with one bound for the residuals of those that differ in nothing else."""
+    reasons = list(reasons)
+    largest: dict[str, set[str]] = {}
+    for reason in reasons:
+        for residual in RESIDUAL.findall(reason):
+            largest.setdefault(RESIDUAL.sub("", reason), set()).add(residual)
+
+    def remark(reason: str) -> str:
+        residuals = largest.get(RESIDUAL.sub("", reason), set())
+        if len(residuals) < 2:
+            return reason
+        return RESIDUAL.sub(f"constraints met to {max(residuals, key=float)} or better", reason)
+
+    return [remark(reason) for reason in reasons]
 
 
 def _letters() -> Iterator[str]:
