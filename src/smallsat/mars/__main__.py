@@ -46,7 +46,9 @@ def _simulate(section: dict, folder: Path) -> None:
     write_table(intervals, folder / "modes.csv")
     write_table(shares(intervals), folder / "mode-shares.csv")
 
-    write_table(observations_table(observations(section, given, runs)), folder / "observations.csv")
+    # All digits, for results that are printed as exact fractions.
+    observed = observations_table(observations(section, given, runs))
+    write_table(observed, folder / "observations.csv", digits=15)
 
 
 def _check(section: dict, folder: Path) -> None:

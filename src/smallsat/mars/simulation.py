@@ -118,8 +118,9 @@ def integrate(
     Returns
     -------
     ndarray, shape (steps + 1, 17)
-        Columns as in `COLUMNS`. Torque, reference and mode are those computed at the row's time and
-        held until the next row; an open-loop run has no reference, and its mode is OPEN_LOOP.
+        Columns as in `COLUMNS`; both rates are in body components. Torque, reference and mode are
+        those computed at the row's time and held until the next row; an open-loop run has no
+        reference, and its mode is OPEN_LOOP.
     """
     out = np.empty((steps + 1, 17))
     sigma = (initial_state[0], initial_state[1], initial_state[2])
@@ -134,9 +135,10 @@ def integrate(
         if command != OPEN_LOOP:
             if command == AUTOMATIC:
                 mode = pointing_mode(lmo, gmo, time, visibility)
-            frame, rate_reference = reference(mode, lmo, gmo, time, difference)
+            frame, frame_rate = reference(mode, lmo, gmo, time, difference)
             sigma_reference = dcm_to_mrp(frame)
-            sigma_error, rate_error = tracking_error(sigma, rate, frame, rate_reference)
+            sigma_error, rate_error = tracking_error(sigma, rate, frame, frame_rate)
+            rate_reference = combined(rate, -1.0, rate_error)
             torque = combined(scaled(-gains.k, sigma_error), -gains.p, rate_error)
         out[k, 0] = time
         for i in range(3):

@@ -1,0 +1,152 @@
+"""Films of the mission: the scene of Figs. 11 to 15 in motion.
+
+``python -m smallsat.mars.animation -h``. Mars and the orbits are drawn once; each frame restores
+them and draws only what moves.
+"""
+
+import argparse
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import imageio_ffmpeg
+import matplotlib as mpl
+import numpy as np
+import pandas as pd
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from smallsat.errors import report_input_errors
+from smallsat.mars.modes import GMO
+from smallsat.mars.parameters import KM, Parameters, parameters
+from smallsat.mars.scene import (
+    ARROW,
+    ARROW_LABEL,
+    BODY_COLOURS,
+    MODE_TITLES,
+    NEAR,
+    Scene,
+    draw_directions,
+    draw_mars,
+    draw_orbit,
+    in_front,
+    scene_in,
+    view,
+)
+from smallsat.results import read_table
+
+# Multiples of 16, as the encoder asks for.
+WIDTH, HEIGHT, DPI = 960, 544, 100
+HIDDEN_ALPHA = 0.3  # of a spacecraft behind the planet
+
+
+def main() -> None:
+    """Write one film."""
+    parser = argparse.ArgumentParser(prog="python -m smallsat.mars.animation")
+    parser.add_argument("trajectory", type=Path, help="table with time_s, sigma_1..3 and mode")
+    parser.add_argument("film", type=Path, help="MP4 file to write")
+    parser.add_argument("--config", required=True, type=json.loads, help="mars section, JSON")
+    parser.add_argument("--run", required=True, help="run to show, where the table has several")
+    parser.add_argument("--step", required=True, type=float, help="seconds between frames")
+    arguments = parser.parse_args()
+
+    trajectory = read_table(arguments.trajectory)
+    if "run" in trajectory:
+        trajectory = trajectory[trajectory["run"] == arguments.run]
+    given = parameters(arguments.config)
+    times = np.arange(0.0, trajectory["time_s"].iloc[-1] + 1e-9, arguments.step)
+    pictures = frames(given, trajectory, times)
+    write_film(pictures, arguments.film, arguments.config["animation"]["frames_per_s"])
+
+
+def write_film(pictures: Iterator[bytes], path: Path, rate: int) -> None:
+    """Encode RGBA pictures as H.264, atomically."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    partial = path.with_name(f".partial-{path.name}")
+    writer = imageio_ffmpeg.write_frames(
+        str(partial), (WIDTH, HEIGHT), fps=rate, pix_fmt_in="rgba", output_params=["-threads", "1"]
+    )
+    writer.send(None)
+    for picture in pictures:
+        writer.send(picture)
+    writer.close()
+    partial.replace(path)
+
+
+def frames(given: Parameters, trajectory: pd.DataFrame, times: np.ndarray) -> Iterator[bytes]:
+    """RGBA pictures of the scene at the times, s, each of ``WIDTH`` by ``HEIGHT`` pixels."""
+    with mpl.rc_context({"figure.constrained_layout.use": False, "font.size": 11}):
+        figure = Figure(figsize=(WIDTH / DPI, HEIGHT / DPI), dpi=DPI)
+        canvas = FigureCanvasAgg(figure)
+        moving = _Moving(figure, given)
+        canvas.draw()
+        still = canvas.copy_from_bbox(figure.bbox)
+        for time in times:
+            canvas.restore_region(still)
+            moving.show(scene_in(given, trajectory, float(time)))
+            yield canvas.buffer_rgba().tobytes()
+
+
+class _Moving:
+    """The artists that change from frame to frame, on a figure with everything that does not."""
+
+    def __init__(self, figure: Figure, given: Parameters) -> None:
+        self.given = given
+        self.length = ARROW * given.lmo.radius / KM
+        wide = view(figure, (0.0, 0.06, 0.5, 0.88), 0.93 * given.gmo.radius / KM, zoom=1.45)
+        near = view(figure, (0.5, 0.06, 0.5, 0.88), NEAR * given.lmo.radius / KM, zoom=1.05)
+        draw_orbit(wide, given.gmo, given, "C3")
+        for axes in (wide, near):
+            draw_mars(axes, given.mars_radius / KM)
+            draw_orbit(axes, given.lmo, given, "C0")
+        draw_directions(figure, (0.38, 0.02, 0.24, 0.36))
+        figure.text(0.03, 0.03, "purple: mothercraft, black: nano-satellite", fontsize=9)
+
+        new: dict[str, Any] = {"animated": True}
+        self.sight = wide.plot([], [], [], color="C3", lw=1.0, ls=":", **new)[0]
+        self.mothercraft = wide.plot([], [], [], "o", color="C3", ms=7, **new)[0]
+        self.satellite = [a.plot([], [], [], "ko", ms=5, **new)[0] for a in (wide, near)]
+        styles = ("-", "-", "-", ":")
+        self.axes = [
+            near.plot([], [], [], color=colour, ls=style, lw=2.0, **new)[0]
+            for colour, style in zip(BODY_COLOURS, styles, strict=True)
+        ]
+        labels = ("$b_1$", "$b_2$", "$b_3$", "$-b_1$")
+        centred: dict[str, Any] = {"ha": "center", "va": "center"}
+        self.labels = [
+            near.text(0, 0, 0, label, color=colour, **centred, **new)
+            for label, colour in zip(labels, BODY_COLOURS, strict=True)
+        ]
+        self.title = figure.text(0.5, 0.95, "", ha="center", **new)
+        self.figure = figure
+
+    def show(self, scene: Scene) -> None:
+        """Put the artists where a scene has them and draw them."""
+        self.title.set_text(f"t = {scene.time:.0f} s: {MODE_TITLES[scene.mode]}")
+        self.mothercraft.set_data_3d(*scene.gmo[:, None])
+        self.sight.set_data_3d(*np.array([scene.lmo, scene.gmo]).T)
+        self.sight.set_visible(scene.mode == GMO)
+        alpha = 1.0 if in_front(scene.lmo, self.given) else HIDDEN_ALPHA
+        for dot in self.satellite:
+            dot.set_data_3d(*scene.lmo[:, None])
+        directions = [*scene.body_axes, -scene.body_axes[0]]
+        for line, label, direction in zip(self.axes, self.labels, directions, strict=True):
+            along = self.length * direction
+            line.set_data_3d(*np.array([scene.lmo, scene.lmo + along]).T)
+            label.set_position_3d(scene.lmo + ARROW_LABEL * along)
+        for artist in (*self.satellite, *self.axes, *self.labels):
+            artist.set_alpha(alpha)
+        for artist in (
+            self.title,
+            self.sight,
+            self.mothercraft,
+            *self.satellite,
+            *self.axes,
+            *self.labels,
+        ):
+            self.figure.draw_artist(artist)
+
+
+if __name__ == "__main__":
+    report_input_errors(main)
