@@ -19,7 +19,9 @@ def figure_files(*stems):
 def targets(document, *kinds):
     """Targets of a document's artefacts, in the order of the document."""
     return [
-        row["target"] for row in ARTEFACTS if row["document"] == document and row["kind"] in kinds
+        row["target"]
+        for row in ARTEFACTS
+        if row["document"] == document and row["kind"] in kinds and row["target"] not in LEFT_OUT
     ]
 
 
@@ -30,6 +32,9 @@ def as_json(value):
 
 # What the verdicts of a study rest on; each study's rule file adds its own.
 STUDY_RESULTS = {}
+
+# Artefacts of cases that a what-if run leaves out.
+LEFT_OUT = []
 
 # Films, made only when asked for.
 ANIMATIONS = []

@@ -1,1 +1,295 @@
-STUDY_RESULTS["transfer"] = ["data/results/transfer/observations.csv"]
+# The orbit-transfer study: solved cases, observations, figures.
+
+TRANSFER = "data/results/transfer"
+TRANSFER_CONFIG = as_json(config["transfer"])
+TRANSFER_SHARDS = [1, *config["transfer"]["intervals"]]
+
+STUDY_RESULTS["transfer"] = [
+    f"{TRANSFER}/{name}.csv"
+    for name in (
+        "observations",
+        "indirect",
+        "as-published",
+        "converged",
+        "continuous",
+        "multistart",
+        "early-stopping",
+    )
+] + [f"{TRANSFER}/indirect.parquet"]
+
+
+def case_files(name):
+    """Cases, trajectories and seconds of a run."""
+    return [f"{TRANSFER}/{name}{suffix}" for suffix in (".csv", ".parquet", "-seconds.csv")]
+
+
+for experiment in ("indirect", "converged", "continuous"):
+
+    rule:
+        name:
+            f"transfer_{experiment}"
+        input:
+            sources("smallsat.transfer.solve"),
+        output:
+            case_files(experiment),
+        log:
+            f"logs/transfer/{experiment}.log",
+        benchmark:
+            f"logs/transfer/{experiment}.benchmark.tsv"
+        params:
+            experiment=experiment,
+            config=TRANSFER_CONFIG,
+        shell:
+            "python -m smallsat.transfer.solve {params.experiment} --config {params.config:q}"
+            f" --results {TRANSFER} > {{log}} 2>&1"
+
+
+rule transfer_multistart:
+    input:
+        sources("smallsat.transfer.solve"),
+    output:
+        case_files("multistart"),
+        f"{TRANSFER}/multistart-starts.csv",
+    log:
+        "logs/transfer/multistart.log",
+    benchmark:
+        "logs/transfer/multistart.benchmark.tsv"
+    params:
+        config=TRANSFER_CONFIG,
+    shell:
+        "python -m smallsat.transfer.solve multistart --config {params.config:q}"
+        f" --results {TRANSFER} > {{log}} 2>&1"
+
+
+# One shard for each number of intervals.
+for intervals in TRANSFER_SHARDS:
+
+    rule:
+        name:
+            f"transfer_as_published_k{intervals}"
+        input:
+            sources("smallsat.transfer.solve"),
+        output:
+            case_files(f"as-published-k{intervals}"),
+        log:
+            f"logs/transfer/as-published-k{intervals}.log",
+        benchmark:
+            f"logs/transfer/as-published-k{intervals}.benchmark.tsv"
+        # The largest shard decides when the study is done: start it first.
+        priority: intervals
+        params:
+            intervals=intervals,
+            config=TRANSFER_CONFIG,
+        shell:
+            "python -m smallsat.transfer.solve as-published --config {params.config:q}"
+            " --intervals {params.intervals}"
+            f" --results {TRANSFER} > {{log}} 2>&1"
+
+
+rule transfer_gather:
+    input:
+        sources("smallsat.transfer.observe"),
+        shards=[case_files(f"as-published-k{k}") for k in TRANSFER_SHARDS],
+        ledger=project("data/published/values.csv"),
+    output:
+        case_files("as-published"),
+        f"{TRANSFER}/early-stopping.csv",
+    log:
+        "logs/transfer/gather.log",
+    benchmark:
+        "logs/transfer/gather.benchmark.tsv"
+    params:
+        intervals=as_json(TRANSFER_SHARDS),
+    shell:
+        "python -m smallsat.transfer.observe gather --intervals {params.intervals:q}"
+        f" --results {TRANSFER} > {{log}} 2>&1"
+
+
+rule transfer_collocation:
+    input:
+        sources("smallsat.transfer.solve"),
+    output:
+        f"{TRANSFER}/collocation.csv",
+        f"{TRANSFER}/collocation-seconds.csv",
+    log:
+        "logs/transfer/collocation.log",
+    benchmark:
+        "logs/transfer/collocation.benchmark.tsv"
+    params:
+        config=TRANSFER_CONFIG,
+    shell:
+        "python -m smallsat.transfer.solve collocation --config {params.config:q}"
+        f" --results {TRANSFER} > {{log}} 2>&1"
+
+
+rule transfer_observations:
+    input:
+        sources("smallsat.transfer.observe"),
+        cases=[
+            case_files(name)
+            for name in ("indirect", "as-published", "converged", "multistart", "continuous")
+        ],
+        ledger=project("data/published/values.csv"),
+    output:
+        f"{TRANSFER}/observations.csv",
+        f"{TRANSFER}/timings.csv",
+    log:
+        "logs/transfer/observations.log",
+    benchmark:
+        "logs/transfer/observations.benchmark.tsv"
+    params:
+        published=project("data/published"),
+    shell:
+        "python -m smallsat.transfer.observe values --published {params.published}"
+        f" --results {TRANSFER} > {{log}} 2>&1"
+
+
+# --- figures -------------------------------------------------------------------------------------
+
+# The document's own cases, in the order of its figures 5 to 64: two figures a case.
+DOCUMENT_DEGREES, DOCUMENT_INTERVALS = range(2, 7), (2, 4, 8, 16)
+TRANSFER_FIGURES = [
+    ("indirect", 0, 1),
+    *[("indirect", 0, k) for k in DOCUMENT_INTERVALS],
+    *[("direct", n, 1) for n in DOCUMENT_DEGREES],
+    *[("direct", n, k) for n in DOCUMENT_DEGREES for k in DOCUMENT_INTERVALS],
+]
+
+
+def trajectories(method, intervals):
+    """Files with the trajectories of a case, the document's kind of run first."""
+    if method == "indirect":
+        return [f"{TRANSFER}/indirect.parquet"]
+    best = "converged" if intervals > 1 else "multistart"
+    return [f"{TRANSFER}/as-published-k{intervals}.parquet", f"{TRANSFER}/{best}.parquet"]
+
+
+for place, (method, degree, intervals) in enumerate(TRANSFER_FIGURES):
+    stems = [f"figures/transfer/fig-{5 + 2 * place + i:02d}" for i in range(2)]
+    # A what-if run may leave out cases of the document; their figures are left out with them.
+    if (degree and degree not in config["transfer"]["degrees"]) or (
+        intervals > 1 and intervals not in config["transfer"]["intervals"]
+    ):
+        LEFT_OUT += [f"{stem}.svg" for stem in stems]
+        continue
+    case = f"{method}-n{degree}-k{intervals}"
+
+    rule:
+        name:
+            f"transfer_figures_{case}".replace("-", "_")
+        input:
+            notebook=project("notebooks/transfer/case.ipynb"),
+            sources=NOTEBOOK_SOURCES
+            + sources("smallsat.transfer.case_plot", "smallsat.report.figure"),
+            trajectories=trajectories(method, intervals),
+        output:
+            figure_files(*stems),
+            notebook=f"{TRANSFER}/notebooks/{case}.ipynb",
+        log:
+            f"logs/transfer/figures-{case}.log",
+        benchmark:
+            f"logs/transfer/figures-{case}.benchmark.tsv"
+        params:
+            parameters=as_json(
+                {
+                    "method": method,
+                    "degree": degree,
+                    "intervals": intervals,
+                    "trajectories": trajectories(method, intervals),
+                    "states_stem": stems[0],
+                    "control_stem": stems[1],
+                }
+            ),
+        shell:
+            NOTEBOOK
+
+
+rule transfer_schematics:
+    input:
+        notebook=project("notebooks/transfer/schematics.ipynb"),
+        sources=NOTEBOOK_SOURCES + sources("smallsat.transfer.schematic", "smallsat.report.figure"),
+        trajectories=f"{TRANSFER}/indirect.parquet",
+    output:
+        figure_files(*[f"figures/transfer/fig-{n:02d}" for n in range(1, 5)]),
+        notebook=f"{TRANSFER}/notebooks/schematics.ipynb",
+    log:
+        "logs/transfer/schematics.log",
+    benchmark:
+        "logs/transfer/schematics.benchmark.tsv"
+    params:
+        parameters=lambda w, input: as_json(
+            {
+                "problem": config["transfer"]["problem"],
+                "trajectories": input.trajectories,
+                "stems": [f"figures/transfer/fig-{n:02d}" for n in range(1, 5)],
+            }
+        ),
+    shell:
+        NOTEBOOK
+
+
+rule transfer_comparisons:
+    input:
+        notebook=project("notebooks/transfer/comparisons.ipynb"),
+        sources=NOTEBOOK_SOURCES
+        + sources(
+            "smallsat.transfer.comparison_plot",
+            "smallsat.transfer.tables",
+            "smallsat.report.figure",
+        ),
+        results=[path for path in STUDY_RESULTS["transfer"] if "observations" not in path]
+        + [f"{TRANSFER}/as-published.parquet", f"{TRANSFER}/converged.parquet"],
+        ledger=project("data/published/values.csv"),
+    output:
+        figure_files(*[f"figures/transfer/fig-{n}" for n in range(65, 71)]),
+        notebook=f"{TRANSFER}/notebooks/comparisons.ipynb",
+    log:
+        "logs/transfer/comparisons.log",
+    benchmark:
+        "logs/transfer/comparisons.benchmark.tsv"
+    params:
+        parameters=as_json({"results": TRANSFER}),
+    shell:
+        NOTEBOOK
+
+
+TRANSFER_EXTRAS = [
+    f"figures/transfer/{name}.svg" for name in ("early-stopping", "continuity", "multistart")
+]
+
+
+rule transfer_beyond:
+    input:
+        notebook=project("notebooks/transfer/beyond.ipynb"),
+        sources=NOTEBOOK_SOURCES
+        + sources(
+            "smallsat.transfer.comparison_plot",
+            "smallsat.transfer.tables",
+            "smallsat.report.figure",
+        ),
+        results=[path for path in STUDY_RESULTS["transfer"] if "observations" not in path],
+        more=[f"{TRANSFER}/multistart-starts.csv", f"{TRANSFER}/collocation.csv"],
+        ledger=project("data/published/values.csv"),
+    output:
+        figure_files(*[path.removesuffix(".svg") for path in TRANSFER_EXTRAS]),
+        table=f"{TRANSFER}/tables/methods.csv",
+        notebook=f"{TRANSFER}/notebooks/beyond.ipynb",
+    log:
+        "logs/transfer/beyond.log",
+    benchmark:
+        "logs/transfer/beyond.benchmark.tsv"
+    params:
+        parameters=as_json({"results": TRANSFER}),
+    shell:
+        NOTEBOOK
+
+
+rule transfer:
+    input:
+        targets("transfer", "table", "figure"),
+        TRANSFER_EXTRAS,
+        f"{TRANSFER}/tables/methods.csv",
+        f"{TRANSFER}/verdicts.csv",
+        f"{TRANSFER}/timings.csv",
+    log:
+        "logs/transfer/all.log",

@@ -9,7 +9,7 @@ import pandas as pd
 from smallsat.errors import InputError
 
 # More than any printed value has, and short enough to read and to diff.
-CSV_DIGITS = 9
+CSV_DIGITS = 12
 
 
 def write_table(table: pd.DataFrame, path: Path, digits: int = CSV_DIGITS) -> None:

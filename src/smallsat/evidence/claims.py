@@ -36,7 +36,12 @@ def judge_claims(
     """Apply every predicate to the results; one row a claim."""
     rows = []
     for entry in entries:
-        judgement: Judgement = resolve(entry["predicate"], path)(config, results)
+        predicate: Predicate = resolve(entry["predicate"], path)
+        try:
+            judgement = predicate(config, results)
+        except LookupError:
+            # A what-if run may leave out the case that a predicate needs.
+            judgement = Judgement("undecided", "this run leaves out a case that it needs")
         row = {name: entry[name] for name in CLAIM_COLUMNS[:3]}
         rows.append(row | {"outcome": judgement.outcome, "evidence": judgement.evidence})
     return pd.DataFrame(rows, columns=list(CLAIM_COLUMNS))

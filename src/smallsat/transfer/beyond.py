@@ -17,7 +17,7 @@ from smallsat.optimal_control.collocation import (
     collocation_program,
 )
 from smallsat.optimal_control.nonlinear_program import IpoptSolver
-from smallsat.transfer.indirect import condition_error, fly_extremal, Extremal
+from smallsat.transfer.indirect import Extremal, condition_error, fly_extremal
 from smallsat.transfer.problem import STATES, TransferProblem
 from smallsat.transfer.trajectory import Path, boundary_error, fly
 
@@ -113,9 +113,7 @@ def indirect_collocation(problem: TransferProblem, costate_guess: np.ndarray) ->
     # A poor guess overflows inside the solver; its status says so, and is what we report.
     with np.errstate(all="ignore"), warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        solution = solve_bvp(
-            rate, conditions, s, guess, p=[GUESS_TIME], tol=1e-8, max_nodes=20000
-        )
+        solution = solve_bvp(rate, conditions, s, guess, p=[GUESS_TIME], tol=1e-8, max_nodes=20000)
     seconds = time.perf_counter() - began
     extremal = Extremal(solution.y[:, :1].T, float(solution.p[0]), solution.niter, 0.0, seconds)
     residual = np.nan

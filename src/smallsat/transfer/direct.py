@@ -117,7 +117,7 @@ def interval_ends(case: Case, k: int) -> tuple[float, float]:
 
 
 def published_guess(case: Case, guess: dict[str, Any]) -> np.ndarray:
-    """The document's guess (size,): flat states and coefficients, a long flight (Listings 6, 10)."""
+    """The document's guess (size,): flat, and a long flight (Listings 6, 10)."""
     return np.concatenate(
         [
             np.full(5 * (case.intervals - 1), guess["interior_state"]),

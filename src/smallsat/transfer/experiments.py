@@ -147,11 +147,12 @@ def multistart(config: Config) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame
             "time_bounds": (0.0, 0.9 * problem.longest_time),
         }
         coarse = SlsqpSolver(
-            shooting_program(problem, case, numerics["steps"]["as_published"], **bounds)
+            shooting_program(problem, case, numerics["steps"]["as_published"], **bounds),
+            expand=True,
         )
         found = []
         for start, child in enumerate(seed.spawn(numerics["multistart"])):
-            solution = coarse.solve(_random_guess(case, np.random.default_rng(child)), 1e-10, 300)
+            solution = coarse.solve(_random_guess(case, np.random.default_rng(child)), 1e-8, 200)
             good = solution.converged and solution.violation < 1e-8
             # A control too wild for the fixed steps shows in a flight with an adaptive method.
             if good:
@@ -168,10 +169,11 @@ def multistart(config: Config) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame
             if good:
                 found.append(solution)
         winner = min(found, key=lambda solution: solution.objective)
-        fine = SlsqpSolver(
-            shooting_program(problem, case, numerics["steps"]["converged"], **bounds)
+        fine = IpoptSolver(
+            shooting_program(problem, case, numerics["steps"]["converged"], **bounds),
+            mu_init=1e-6,
         )
-        best.append((case, fine.solve(winner.variables, 1e-13)))
+        best.append((case, fine.solve(winner.variables)))
     rows = ((_direct_row("converged", case, solution), case, solution) for case, solution in best)
     cases, trajectories = _collect(problem, rows)
     return cases, trajectories, pd.DataFrame(starts)
@@ -199,9 +201,7 @@ def _solve_near(
     program.upper[:interior] = np.tile([high for _, high in STATE_BOUNDS], case.intervals - 1)
     solver = IpoptSolver(program, mu_init=1e-4)
     solution = solver.solve(fitted_guess(case, extremal))
-    slack = np.minimum(
-        solution.variables - program.lower, program.upper - solution.variables
-    ).min()
+    slack = np.minimum(solution.variables - program.lower, program.upper - solution.variables).min()
     row = _direct_row(run, case, solution) | {"bound_slack": float(slack)}
     return row, case, solution
 
@@ -217,9 +217,7 @@ def _collect(problem: TransferProblem, solved: Iterator[tuple[Row, Case, Solutio
 
 
 def _extremal_table(problem: TransferProblem, config: Config) -> pd.DataFrame:
-    extremal = solve_extremal(
-        problem, 1, config["guess"], config["numerics"]["steps"]["indirect"]
-    )
+    extremal = solve_extremal(problem, 1, config["guess"], config["numerics"]["steps"]["indirect"])
     return fly_extremal(problem, extremal, SAMPLES + 1)[1]
 
 
@@ -257,4 +255,3 @@ def _random_guess(case: Case, random: np.random.Generator) -> np.ndarray:
     # Angles of a few radians at the interval's ends, and a flight of plausible length.
     coefficients = random.normal(0.0, 3.0, case.degree + 1)
     return np.concatenate([coefficients, [random.uniform(3.0, 6.0)]])
-

@@ -170,8 +170,14 @@ def _shooting_functions(
     nodes = ca.reshape(ca.vertcat(ca.DM(problem.initial_state), unknown[:-1]), 10, intervals)
     residual = []
     for k in range(intervals):
-        end = integrate(step, nodes[:, k], final_time, k / intervals, (k + 1) / intervals,
-                        max(1, steps // intervals))
+        end = integrate(
+            step,
+            nodes[:, k],
+            final_time,
+            k / intervals,
+            (k + 1) / intervals,
+            max(1, steps // intervals),
+        )
         if k < intervals - 1:
             residual.append(end - nodes[:, k + 1])
             continue

@@ -1,0 +1,245 @@
+"""Figures 65 to 70: all cases compared, and the figures of the chapter's own section."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from smallsat.report.style import BLACK, BLUE, CYCLE, GREEN, ORANGE, VERMILION, WIDTH
+from smallsat.transfer.printed import printed_cases
+
+
+def work(cases: pd.DataFrame) -> pd.Series:
+    """Flights that a finite-difference solver, like the document's, would need.
+
+    Iterations times (unknowns + 1): a measure of cost that no machine changes.
+    """
+    return cases["iterations"] * (cases["unknowns"] + 1)
+
+
+def cost_surface(cost: pd.DataFrame) -> Figure:
+    """Figure 65: printed seconds and our work over N and K, as surfaces.
+
+    Parameters
+    ----------
+    cost
+        Columns degree, intervals, seconds (printed) and work.
+    """
+    return _surfaces(
+        cost,
+        {"seconds": "printed (s)", "work": "flights (thousands)"},
+        scale={"work": 1e-3},
+    )
+
+
+def time_surface(times: pd.DataFrame) -> Figure:
+    """Figure 67: printed and converged final time over N and K, as surfaces."""
+    return _surfaces(times, {"printed": "printed $t_f$", "converged": "converged $t_f$"})
+
+
+def cost_lines(cost: pd.DataFrame) -> Figure:
+    """Figure 66: cost against K, one line a degree."""
+    figure, pair = plt.subplots(1, 2, figsize=(WIDTH, 2.8))
+    for axes, column, label in zip(
+        pair, ("seconds", "work"), ("printed execution time (s)", "flights"), strict=True
+    ):
+        for degree, group in cost.groupby("degree"):
+            axes.plot(group["intervals"], group[column], "-o", ms=3, label=f"N = {degree}")
+        axes.set_xlabel("intervals K")
+        axes.set_ylabel(label)
+        axes.set_xticks(sorted(cost["intervals"].unique()))
+    pair[0].legend()
+    return figure
+
+
+def cost_against_indirect(cost: pd.DataFrame, indirect: pd.DataFrame) -> Figure:
+    """Figure 68: cost of direct and of indirect multiple shooting against K."""
+    figure, pair = plt.subplots(1, 2, figsize=(WIDTH, 3.0), sharex=True)
+    for axes, column, label in zip(
+        pair, ("seconds", "work"), ("printed execution time (s)", "flights"), strict=True
+    ):
+        for degree, group in cost.groupby("degree"):
+            axes.plot(group["intervals"], group[column], "-o", ms=3, label=f"direct, N = {degree}")
+        axes.plot(
+            indirect["intervals"], indirect[column], "--s", color=BLACK, ms=4, label="indirect"
+        )
+        axes.set_yscale("log")
+        axes.set_xlabel("intervals K")
+        axes.set_ylabel(label)
+        axes.set_xticks(sorted(cost["intervals"].unique()))
+    pair[1].legend(fontsize=7)
+    return figure
+
+
+def mass_history(flown: pd.DataFrame, finals: pd.DataFrame) -> Figure:
+    """Figure 69: mass against time for every method, and the final masses enlarged.
+
+    Parameters
+    ----------
+    flown
+        Trajectories with columns label, t, m.
+    finals
+        Columns label, final_time, final_mass, group.
+    """
+    figure, (left, right) = plt.subplots(1, 2, figsize=(WIDTH, 3.0))
+    colours = _group_colours()
+    for label, path in flown.groupby("label", sort=False):
+        group = finals.loc[finals["label"] == label, "group"].iloc[0]
+        left.plot(path["t"], path["m"], color=colours[group], lw=0.8)
+    left.set_xlabel("t")
+    left.set_ylabel("mass")
+    for group, rows in finals.groupby("group", sort=False):
+        right.plot(
+            rows["final_time"], rows["final_mass"], "o", ms=4, color=colours[group], label=group
+        )
+    right.set_xlabel("$t_f$")
+    right.set_ylabel("final mass")
+    right.legend()
+    return figure
+
+
+def mass_above_printed(finals: pd.DataFrame) -> Figure:
+    """Figure 70: how far each case's final mass lies below the indirect optimum, on a log scale.
+
+    Parameters
+    ----------
+    finals
+        Columns degree, intervals, optimum, and the masses printed, as_published, converged.
+    """
+    figure, axes = plt.subplots(figsize=(WIDTH, 3.3))
+    position = np.arange(len(finals))
+    for column, colour, marker in (
+        ("printed", VERMILION, "D"),
+        ("as_published", ORANGE, "v"),
+        ("converged", BLUE, "o"),
+    ):
+        gap = finals["optimum"] - finals[column]
+        axes.plot(
+            position, gap.where(gap > 0), marker, ms=4, color=colour, label=column.replace("_", " ")
+        )
+    above = finals["printed"] > finals["optimum"]
+    for place in position[above]:
+        axes.annotate(
+            "printed mass\nabove the optimum",
+            (place, axes.get_ylim()[0]),
+            ha="center",
+            va="bottom",
+            fontsize=7,
+            color=VERMILION,
+        )
+    axes.set_yscale("log")
+    axes.set_ylabel("indirect optimum minus final mass")
+    axes.set_xticks(
+        position,
+        [f"{n}, {k}" for n, k in zip(finals["degree"], finals["intervals"], strict=True)],
+        rotation=90,
+        fontsize=7,
+    )
+    axes.set_xlabel("N, K")
+    axes.legend(ncols=3, loc="upper right")
+    return figure
+
+
+def early_stopping_figure(table: pd.DataFrame) -> Figure:
+    """Final time of as-published runs stopped at looser tolerances, beside the printed ones."""
+    figure, panels = plt.subplots(
+        1, table["intervals"].nunique(), figsize=(WIDTH, 3.0), sharey=True
+    )
+    band = table["printed"].min(), table["printed"].max()
+    for axes, (intervals, rows) in zip(panels, table.groupby("intervals"), strict=True):
+        axes.axhspan(*band, color="#dddddd", lw=0)
+        for colour, (degree, group) in zip(CYCLE, rows.groupby("degree"), strict=False):
+            axes.semilogx(
+                group["tolerance"],
+                group["final_time"],
+                "-",
+                lw=0.8,
+                color=colour,
+                label=f"N = {degree}",
+            )
+            hit = group[group["equal_to_printed"]]
+            axes.plot(hit["tolerance"], hit["final_time"], "o", ms=5, color=colour)
+        axes.set_ylim(3.2468, 3.2525)
+        axes.invert_xaxis()
+        axes.set_title(f"K = {intervals}")
+        axes.set_xlabel("SLSQP ftol")
+        axes.tick_params(axis="x", labelsize=7)
+        axes.set_xticks([1e-4, 1e-6, 1e-8])
+    panels[0].set_ylabel("$t_f$")
+    panels[-1].legend(fontsize=7)
+    return figure
+
+
+def continuity_figure(table: pd.DataFrame, optimum: float) -> Figure:
+    """What a continuous control costs: distance to the optimum with and without it.
+
+    Parameters
+    ----------
+    table
+        Columns degree, intervals, free, continuous (final times).
+    optimum
+        Final time of the indirect solution.
+    """
+    figure, axes = plt.subplots(figsize=(WIDTH, 2.8))
+    for colour, (intervals, group) in zip(CYCLE, table.groupby("intervals"), strict=False):
+        axes.semilogy(
+            group["degree"],
+            group["free"] - optimum,
+            "-o",
+            ms=3,
+            color=colour,
+            label=f"K = {intervals}",
+        )
+        axes.semilogy(group["degree"], group["continuous"] - optimum, "--s", ms=3, color=colour)
+    axes.set_xlabel("degree N")
+    axes.set_ylabel(r"$t_f$ minus the optimum")
+    axes.set_xticks(sorted(table["degree"].unique()))
+    axes.legend(title="solid: free, dashed: continuous", ncols=2)
+    return figure
+
+
+def multistart_figure(starts: pd.DataFrame) -> Figure:
+    """Final times of the converged random starts for a single polynomial, printed values marked."""
+    figure, axes = plt.subplots(figsize=(WIDTH, 2.8))
+    printed = printed_cases("Table 3")["terminal time"]
+    for degree, group in starts[starts["converged"]].groupby("degree"):
+        axes.plot(group["final_time"], np.full(len(group), degree), "|", color=BLUE, ms=10)
+        axes.plot(printed["direct", degree, 1], degree, "D", color=VERMILION, ms=5, mfc="none")
+    axes.plot([], [], "|", color=BLUE, ms=10, label="a random start")
+    axes.plot([], [], "D", color=VERMILION, mfc="none", label="printed")
+    axes.set_xlim(3.2, 4.6)
+    axes.set_xlabel("$t_f$")
+    axes.set_ylabel("degree N")
+    axes.set_yticks(sorted(starts["degree"].unique()))
+    axes.legend()
+    return figure
+
+
+def _group_colours() -> dict[str, str]:
+    return {
+        "direct": VERMILION,
+        "direct multiple": GREEN,
+        "indirect multiple": BLUE,
+        "indirect": BLACK,
+    }
+
+
+def _surfaces(
+    table: pd.DataFrame, columns: dict[str, str], scale: dict[str, float] | None = None
+) -> Figure:
+    figure = plt.figure(figsize=(WIDTH, 3.1))
+    for place, (column, label) in enumerate(columns.items(), start=1):
+        axes = figure.add_subplot(1, 2, place, projection="3d")
+        grid = table.pivot(index="degree", columns="intervals", values=column)
+        x, y = np.meshgrid(grid.columns, grid.index)
+        height = grid.to_numpy() * (scale or {}).get(column, 1.0)
+        axes.plot_surface(y, x, height, cmap="viridis", alpha=0.85, edgecolor="#333333", lw=0.4)
+        axes.set_xlabel("N", labelpad=-4)
+        axes.set_ylabel("K", labelpad=-4)
+        axes.set_title(label)
+        axes.set_xticks(grid.index)
+        axes.set_yticks(grid.columns)
+        axes.tick_params(labelsize=7, pad=-1)
+        axes.ticklabel_format(axis="z", useOffset=False)
+        axes.view_init(25, 50)
+    return figure
