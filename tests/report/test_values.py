@@ -88,7 +88,7 @@ def test_our_seconds_stand_beside_printed_seconds():
 def test_inputs_are_grouped_by_what_they_feed_those_that_feed_nothing_last():
     groups = input_groups(
         verdicts(
-            locator=["Listing 1", "Listing 4", "Table 2", "Listing 4"],
+            locator=["Listing 1", "Listing 4", "Table 2", "Listing 10"],
             printed=["1e5", "1.5", "1.5", "1.50"],
             verdict=["context", "reproduced", "reproduced", "reproduced"],
             reason=["not a parameter of ours: an option", *["feeds transfer.radius"] * 3],
@@ -96,6 +96,6 @@ def test_inputs_are_grouped_by_what_they_feed_those_that_feed_nothing_last():
     )
     assert [group["name"] for group in groups] == ["transfer.radius", "an option"]
     assert groups[0]["printed"] == ["1.5", "1.50"]
-    assert groups[0]["places"] == ["Listing 4", "Table 2"]
+    assert groups[0]["places"] == ["Listings 4, 10", "Table 2"]
     assert groups[0]["values"] == 3
     assert not groups[1]["ours"]

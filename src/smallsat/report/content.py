@@ -128,16 +128,17 @@ def _study(
 
 
 def _figure(run: Path, stem: str, name: str = "", caption: str = "") -> Content:
-    """One figure, with the width in points at which it was drawn."""
+    """One figure, with the size in points at which it was drawn."""
     path = run / f"{stem}.svg"
     try:
         with path.open(encoding="utf-8") as file:
-            width = re.search(r'<svg[^>]*? width="([\d.]+)pt"', file.read(2000))
+            size = re.search(r'<svg[^>]*? width="([\d.]+)pt" height="([\d.]+)pt"', file.read(2000))
     except FileNotFoundError:
         raise InputError(f"{path}: no such figure; run `snakemake {stem}.svg`") from None
-    if width is None:
+    if size is None:
         raise InputError(f"{path}: damaged figure; delete it and run `snakemake` again")
-    return {"id": name, "caption": caption, "stem": stem, "width": float(width[1])}
+    width, height = float(size[1]), float(size[2])
+    return {"id": name, "caption": caption, "stem": stem, "width": width, "height": height}
 
 
 def _seconds(results: Path) -> dict[str, float]:

@@ -35,7 +35,7 @@ def input_groups(verdicts: pd.DataFrame) -> list[Content]:
             "verdict": verdict,
             "printed": _distinct(rows, "printed"),
             "values": len(rows),
-            "places": _distinct(rows, "locator"),
+            "places": _places(_distinct(rows, "locator")),
         }
         for (others, name, verdict), rows in sorted(groups.items(), key=lambda item: item[0])
     ]
@@ -43,3 +43,15 @@ def input_groups(verdicts: pd.DataFrame) -> list[Content]:
 
 def _distinct(rows: list[dict[str, str]], key: str) -> list[str]:
     return list(dict.fromkeys(str(row[key]) for row in rows))
+
+
+def _places(locators: list[str]) -> list[str]:
+    """Locators of one sort together: Listing 1, Listing 4 becomes Listings 1, 4."""
+    sorts: dict[str, list[str]] = {}
+    for locator in locators:
+        sort, _, place = locator.partition(" ")
+        sorts.setdefault(sort, []).append(place)
+    return [
+        f"{sort}{'s' if len(places) > 1 else ''} {', '.join(places)}".strip()
+        for sort, places in sorts.items()
+    ]
