@@ -10,15 +10,24 @@ STUDY_RESULTS["mars"] = [
     f"{MARS}/independent.parquet",
 ]
 
-# Notebook runs: which notebook, its figures, its parameters, and the module that draws.
+# Figures of each notebook run: few, so that one figure alone is made in seconds.
+MARS_SCHEMATICS = {
+    "mission-and-body": ["fig-01", "fig-02"],
+    "angles-and-modes": ["fig-03", "fig-09"],
+}
 MARS_RESPONSES = {
-    "torque": {"fig-04": "no torque", "fig-05": "fixed torque"},
-    "pointing": {"fig-06": "sun", "fig-07": "nadir", "fig-08": "gmo"},
+    "no-torque": {"fig-04": "no torque"},
+    "fixed-torque": {"fig-05": "fixed torque"},
+    "sun": {"fig-06": "sun"},
+    "nadir": {"fig-07": "nadir"},
+    "gmo": {"fig-08": "gmo"},
     "mission": {"fig-10": "mission"},
 }
+# The number is the place among the mission's answer times.
 MARS_SCENES = {
-    "scenes-early": {"fig-11": 0, "fig-12": 1, "fig-13": 2},
-    "scenes-late": {"fig-14": 3, "fig-15": 4},
+    "scenes-1-2": {"fig-11": 0, "fig-12": 1},
+    "scenes-3-4": {"fig-13": 2, "fig-14": 3},
+    "scene-5": {"fig-15": 4},
 }
 
 
@@ -63,29 +72,37 @@ rule mars_independent_check:
         " --output-folder {params.folder} > {log} 2>&1"
 
 
-rule mars_schematics:
-    input:
-        notebook=project("notebooks/mars/schematics.ipynb"),
-        sources=NOTEBOOK_SOURCES
-        + sources("smallsat.mars.schematics", "smallsat.report.figure", "smallsat.report.style"),
-    output:
-        figure_files(*[f"figures/mars/fig-{number}" for number in ("01", "02", "03", "09")]),
-        notebook=f"{MARS}/notebooks/schematics.ipynb",
-    log:
-        "logs/mars/schematics.log",
-    benchmark:
-        "logs/mars/schematics.benchmark.tsv"
-    params:
-        parameters=as_json({"section": MARS_SECTION, "folder": "figures/mars"}),
-    shell:
-        NOTEBOOK
+for name, figures in MARS_SCHEMATICS.items():
+
+    rule:
+        name:
+            f"mars_{name.replace('-', '_')}"
+        input:
+            notebook=project("notebooks/mars/schematics.ipynb"),
+            sources=NOTEBOOK_SOURCES
+            + sources(
+                "smallsat.mars.schematics", "smallsat.report.figure", "smallsat.report.style"
+            ),
+        output:
+            figure_files(*[f"figures/mars/{figure}" for figure in figures]),
+            notebook=f"{MARS}/notebooks/{name}.ipynb",
+        log:
+            f"logs/mars/{name}.log",
+        benchmark:
+            f"logs/mars/{name}.benchmark.tsv"
+        params:
+            parameters=as_json(
+                {"section": MARS_SECTION, "folder": "figures/mars", "figures": figures}
+            ),
+        shell:
+            NOTEBOOK
 
 
 for name, figures in MARS_RESPONSES.items():
 
     rule:
         name:
-            f"mars_{name}_figures"
+            f"mars_{name.replace('-', '_')}"
         input:
             notebook=project("notebooks/mars/responses.ipynb"),
             sources=NOTEBOOK_SOURCES
@@ -100,9 +117,9 @@ for name, figures in MARS_RESPONSES.items():
             figure_files(*[f"figures/mars/{figure}" for figure in figures]),
             notebook=f"{MARS}/notebooks/{name}.ipynb",
         log:
-            f"logs/mars/{name}_figures.log",
+            f"logs/mars/{name}.log",
         benchmark:
-            f"logs/mars/{name}_figures.benchmark.tsv"
+            f"logs/mars/{name}.benchmark.tsv"
         params:
             parameters=as_json(
                 {
@@ -182,28 +199,41 @@ rule mars_day_modes:
 
 
 # The document's day-long film is an artefact; the mission's is mentioned in its text.
-for film, run, step in (("1", "day", "day_step_s"), ("mission", "mission", "mission_step_s")):
-    ANIMATIONS.append(f"figures/mars/animation-{film}.mp4")
+MARS_FILMS = {
+    "day": ("animation-1", "day.parquet", "day_step_s"),
+    "mission": ("animation-mission", "trajectories.parquet", "mission_step_s"),
+}
+
+for run, (film, trajectory, step) in MARS_FILMS.items():
+    ANIMATIONS.append(f"figures/mars/{film}.mp4")
 
     rule:
         name:
-            f"mars_animation_{run}"
+            f"mars_film_{run}"
         input:
-            sources=sources("smallsat.mars.animation"),
-            trajectory=f"{MARS}/day.parquet" if run == "day" else f"{MARS}/trajectories.parquet",
+            notebook=project("notebooks/mars/animation.ipynb"),
+            sources=NOTEBOOK_SOURCES
+            + sources("smallsat.mars.animation", "smallsat.report.style", "smallsat.results"),
+            trajectory=f"{MARS}/{trajectory}",
         output:
-            f"figures/mars/animation-{film}.mp4",
+            f"figures/mars/{film}.mp4",
+            notebook=f"{MARS}/notebooks/{film}.ipynb",
         log:
-            f"logs/mars/animation_{run}.log",
+            f"logs/mars/{film}.log",
         benchmark:
-            f"logs/mars/animation_{run}.benchmark.tsv"
+            f"logs/mars/{film}.benchmark.tsv"
         params:
-            config=as_json(MARS_SECTION),
-            run=run,
-            step=MARS_SECTION["animation"][step],
+            parameters=as_json(
+                {
+                    "section": MARS_SECTION,
+                    "trajectory_path": f"{MARS}/{trajectory}",
+                    "run": run,
+                    "step": MARS_SECTION["animation"][step],
+                    "film": f"figures/mars/{film}.mp4",
+                }
+            ),
         shell:
-            "python -m smallsat.mars.animation --config {params.config:q} --run {params.run}"
-            " --step {params.step} {input.trajectory} {output} > {log} 2>&1"
+            NOTEBOOK
 
 
 rule mars:

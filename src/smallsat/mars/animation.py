@@ -1,11 +1,8 @@
 """Films of the mission: the scene of Figs. 11 to 15 in motion.
 
-``python -m smallsat.mars.animation -h``. Mars and the orbits are drawn once; each frame restores
-them and draws only what moves.
+Mars and the orbits are drawn once; each frame restores them and draws only what moves.
 """
 
-import argparse
-import json
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -17,13 +14,13 @@ import pandas as pd
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from smallsat.errors import report_input_errors
 from smallsat.mars.modes import GMO
-from smallsat.mars.parameters import KM, Parameters, parameters
+from smallsat.mars.parameters import KM, Parameters
 from smallsat.mars.scene import (
     ARROW,
     ARROW_LABEL,
     BODY_COLOURS,
+    HALO,
     MODE_TITLES,
     NEAR,
     Scene,
@@ -31,37 +28,19 @@ from smallsat.mars.scene import (
     draw_mars,
     draw_orbit,
     in_front,
+    legend_handles,
     scene_in,
     view,
 )
-from smallsat.results import read_table
 
 # Multiples of 16, as the encoder asks for.
 WIDTH, HEIGHT, DPI = 960, 544, 100
 HIDDEN_ALPHA = 0.3  # of a spacecraft behind the planet
 
 
-def main() -> None:
-    """Write one film."""
-    parser = argparse.ArgumentParser(prog="python -m smallsat.mars.animation")
-    parser.add_argument("trajectory", type=Path, help="table with time_s, sigma_1..3 and mode")
-    parser.add_argument("film", type=Path, help="MP4 file to write")
-    parser.add_argument("--config", required=True, type=json.loads, help="mars section, JSON")
-    parser.add_argument("--run", required=True, help="run to show, where the table has several")
-    parser.add_argument("--step", required=True, type=float, help="seconds between frames")
-    arguments = parser.parse_args()
-
-    trajectory = read_table(arguments.trajectory)
-    if "run" in trajectory:
-        trajectory = trajectory[trajectory["run"] == arguments.run]
-    given = parameters(arguments.config)
-    times = np.arange(0.0, trajectory["time_s"].iloc[-1] + 1e-9, arguments.step)
-    pictures = frames(given, trajectory, times)
-    write_film(pictures, arguments.film, arguments.config["animation"]["frames_per_s"])
-
-
-def write_film(pictures: Iterator[bytes], path: Path, rate: int) -> None:
+def write_film(pictures: Iterator[bytes], path: Path | str, rate: int) -> None:
     """Encode RGBA pictures as H.264, atomically."""
+    path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     partial = path.with_name(f".partial-{path.name}")
     writer = imageio_ffmpeg.write_frames(
@@ -101,7 +80,7 @@ class _Moving:
             draw_mars(axes, given.mars_radius / KM)
             draw_orbit(axes, given.lmo, given, "C0")
         draw_directions(figure, (0.38, 0.02, 0.24, 0.36))
-        figure.text(0.03, 0.03, "purple: mothercraft, black: nano-satellite", fontsize=9)
+        figure.legend(handles=legend_handles(), loc="lower center", ncols=3, frameon=False)
 
         new: dict[str, Any] = {"animated": True}
         self.sight = wide.plot([], [], [], color="C3", lw=1.0, ls=":", **new)[0]
@@ -118,6 +97,8 @@ class _Moving:
             near.text(0, 0, 0, label, color=colour, **centred, **new)
             for label, colour in zip(labels, BODY_COLOURS, strict=True)
         ]
+        for label in self.labels:
+            label.set_path_effects(HALO)
         self.title = figure.text(0.5, 0.95, "", ha="center", **new)
         self.figure = figure
 
@@ -146,7 +127,3 @@ class _Moving:
             *self.labels,
         ):
             self.figure.draw_artist(artist)
-
-
-if __name__ == "__main__":
-    report_input_errors(main)

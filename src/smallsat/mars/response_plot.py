@@ -64,6 +64,11 @@ def response_figure(data: pd.DataFrame) -> Figure:
     if len(lines) > 1:
         figure.legend(lines, ["body", "reference frame"], loc="outside upper center", ncols=2)
     figure.align_ylabels(panels)
+    # Laid out once, not again for each file format.
+    layout = figure.get_layout_engine()
+    assert layout is not None
+    layout.execute(figure)
+    figure.set_layout_engine("none")
     return figure
 
 

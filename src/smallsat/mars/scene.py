@@ -20,6 +20,8 @@ from smallsat.mars.parameters import KM, Parameters
 
 MODE_TITLES = {SUN: "Sun pointing", NADIR: "nadir pointing", GMO: "GMO pointing"}
 BODY_COLOURS = ("C1", "C2", "C0", "C1")
+# Keeps labels readable on the planet.
+HALO = [withStroke(linewidth=2.0, foreground="white")]
 DAY_COLOUR, NIGHT_COLOUR = "#e8b48c", "#7a6a63"
 
 # The document's point of view; matplotlib counts azimuth from another axis.
@@ -104,7 +106,9 @@ def scene_figure(given: Parameters, scene: Scene) -> Figure:
     draw_directions(figure, (0.37, 0.06, 0.24, 0.36))
 
     figure.text(0.5, 0.94, f"t = {scene.time:g} s: {MODE_TITLES[scene.mode]}", ha="center")
-    figure.legend(handles=_legend(), loc="lower center", ncols=4, fontsize=7, columnspacing=1.2)
+    figure.legend(
+        handles=legend_handles(), loc="lower center", ncols=4, fontsize=7, columnspacing=1.2
+    )
     return figure
 
 
@@ -183,7 +187,7 @@ def draw_arrow(axes, start, along, label, colour, style="-", order=10.0) -> None
     )
     at = np.asarray(start) + ARROW_LABEL * np.asarray(along)
     text = axes.text(*at, label, color=colour, fontsize=9, ha="center", va="center", zorder=20)
-    text.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
+    text.set_path_effects(HALO)
 
 
 def draw_directions(figure: Figure, place: Place) -> None:
@@ -195,7 +199,8 @@ def draw_directions(figure: Figure, place: Place) -> None:
         draw_arrow(axes, np.zeros(3), direction, label, colour)
 
 
-def _legend() -> list[Line2D]:
+def legend_handles() -> list[Line2D]:
+    """What the legend of a scene explains."""
     orbit = Line2D([], [], color="C0", lw=0.9, marker="o", ms=4.5, label="nano-satellite")
     orbit.set(markerfacecolor="black", markeredgecolor="black")
     return [

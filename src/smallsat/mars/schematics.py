@@ -71,9 +71,9 @@ def body_frame(given: Parameters) -> Drawing:
     # Side lengths up to a factor; a thin plate is drawn where the inertias allow no box.
     sides = np.sqrt(np.maximum(squares, 0.02 * squares.max()))
     sides /= sides.max()
-    figure = new_figure(figsize=(4.6, 3.6))
+    figure = new_figure(figsize=(4.6, 3.0))
     figure.set_layout_engine("none")
-    axes = view(figure, (-0.08, -0.12, 1.16, 1.2), 1.15, 1.15, elevation=24, azimuth=-60)
+    axes = view(figure, (-0.08, -0.2, 1.16, 1.4), 1.15, 1.15, elevation=24, azimuth=-60)
     corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * sides / 2
     quads = ((0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5))
     colours = ["#d9d9d9"] * 5 + ["#9fc3e0"]
@@ -83,15 +83,18 @@ def body_frame(given: Parameters) -> Drawing:
         )
     )
     uses = ("sensor", "", "solar panel")
+    beside = ("left", "left", "center")
     rows = []
     for i, (direction, use) in enumerate(zip(np.eye(3), uses, strict=True)):
         label = f"$b_{i + 1}$" + (f": {use}" if use else "")
-        _arrow(axes, direction * sides[i] / 2, direction * 0.75, label, BODY_COLOURS[i])
+        _arrow(
+            axes, direction * sides[i] / 2, direction * 0.75, label, BODY_COLOURS[i], side=beside[i]
+        )
         rows.append(
             {"axis": f"b{i + 1}", "use": use, "side": sides[i], "inertia": given.inertia[i]}
         )
     _arrow(
-        axes, [-sides[0] / 2, 0, 0], [-0.85, 0, 0], "$-b_1$: antenna", BODY_COLOURS[0], style=":"
+        axes, [-sides[0] / 2, 0, 0], [-0.85, 0, 0], "$-b_1$: antenna", BODY_COLOURS[0], ":", "right"
     )
     rows.append({"axis": "-b1", "use": "antenna", "side": sides[0], "inertia": first})
     return figure, pd.DataFrame(rows)
@@ -178,11 +181,14 @@ def state_machine(visibility_deg: float) -> Drawing:
     return figure, pd.DataFrame(rows)
 
 
-def _arrow(axes: Axes3D, start, along, label: str, colour: str, style: str = "-") -> None:
+def _arrow(
+    axes: Axes3D, start, along, label: str, colour: str, style: str = "-", side: str = "center"
+) -> None:
     axes.quiver(*start, *along, color=colour, lw=1.6, ls=style, arrow_length_ratio=0.15, zorder=9)
-    _label(axes, np.asarray(start) + 1.18 * np.asarray(along), label, colour)
+    distance = 1.18 if side == "center" else 1.04
+    _label(axes, np.asarray(start) + distance * np.asarray(along), label, colour, side)
 
 
-def _label(axes: Axes3D, at, label: str, colour: str) -> None:
-    text = axes.text(*at, label, color=colour, ha="center", va="center", zorder=20)
+def _label(axes: Axes3D, at, label: str, colour: str, side: str = "center") -> None:
+    text = axes.text(*at, label, color=colour, ha=side, va="center", zorder=20)
     text.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
