@@ -68,7 +68,7 @@ class SlsqpSolver:
 
     def __init__(self, program: NonlinearProgram, *, expand: bool = False):
         x = program.variables
-        functions = (
+        functions: tuple[ca.Function, ...] = (
             ca.Function("f", [x], [program.objective]),
             ca.Function("df", [x], [ca.gradient(program.objective, x)]),
             ca.Function("g", [x], [program.constraints]),
@@ -113,7 +113,12 @@ class IpoptSolver:
 
     def __init__(self, program: NonlinearProgram, *, expand: bool = False, **options: Any):
         self._program = program
-        settings = {"print_level": 0, "sb": "yes", "tol": 1e-10, "max_iter": 500} | options
+        settings: dict[str, Any] = {
+            "print_level": 0,
+            "sb": "yes",
+            "tol": 1e-10,
+            "max_iter": 500,
+        } | options
         self._solver = ca.nlpsol(
             "solver",
             "ipopt",

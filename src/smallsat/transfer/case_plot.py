@@ -82,7 +82,7 @@ def drawn_data(flown: pd.DataFrame) -> pd.DataFrame:
 
 
 def _degrees(angle: pd.Series) -> pd.Series:
-    return np.degrees(np.mod(angle, 2 * np.pi))
+    return pd.Series(np.degrees(np.mod(angle, 2 * np.pi)), index=angle.index)
 
 
 def _unwrapped(segment: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:

@@ -4,6 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from smallsat.report.style import BLACK, BLUE, CYCLE, GREEN, ORANGE, VERMILION, WIDTH
 from smallsat.transfer.printed import printed_cases
@@ -72,25 +73,30 @@ def cost_against_indirect(cost: pd.DataFrame, indirect: pd.DataFrame) -> Figure:
 
 
 def mass_history(flown: pd.DataFrame, finals: pd.DataFrame) -> Figure:
-    """Figure 69: mass against time for every method, and the final masses enlarged.
+    """Figure 69: mass against tau for every method, and the final masses enlarged.
 
     Parameters
     ----------
     flown
-        Trajectories with columns label, t, m.
+        Trajectories with columns label, tau, m.
     finals
         Columns label, final_time, final_mass, group.
     """
     figure, (left, right) = plt.subplots(1, 2, figsize=(WIDTH, 3.0))
     colours = _group_colours()
     for label, path in flown.groupby("label", sort=False):
-        group = finals.loc[finals["label"] == label, "group"].iloc[0]
-        left.plot(path["t"], path["m"], color=colours[group], lw=0.8)
-    left.set_xlabel("t")
+        kind = str(finals.loc[finals["label"] == label, "group"].iloc[0])
+        left.plot(path["tau"], path["m"], color=colours[kind], lw=0.8)
+    left.set_xlabel(r"$\tau$")
     left.set_ylabel("mass")
     for group, rows in finals.groupby("group", sort=False):
         right.plot(
-            rows["final_time"], rows["final_mass"], "o", ms=4, color=colours[group], label=group
+            rows["final_time"],
+            rows["final_mass"],
+            "o",
+            ms=4,
+            color=colours[str(group)],
+            label=group,
         )
     right.set_xlabel("$t_f$")
     right.set_ylabel("final mass")
@@ -120,11 +126,13 @@ def mass_above_printed(finals: pd.DataFrame) -> Figure:
     above = finals["printed"] > finals["optimum"]
     for place in position[above]:
         axes.annotate(
-            "printed mass\nabove the optimum",
-            (place, axes.get_ylim()[0]),
+            "printed above optimum",
+            (place, 0.02),
+            xycoords=axes.get_xaxis_transform(),
             ha="center",
             va="bottom",
-            fontsize=7,
+            fontsize=6,
+            rotation=90,
             color=VERMILION,
         )
     axes.set_yscale("log")
@@ -136,7 +144,7 @@ def mass_above_printed(finals: pd.DataFrame) -> Figure:
         fontsize=7,
     )
     axes.set_xlabel("N, K")
-    axes.legend(ncols=3, loc="upper right")
+    figure.legend(loc="outside upper center", ncols=3)
     return figure
 
 
@@ -204,9 +212,9 @@ def multistart_figure(starts: pd.DataFrame) -> Figure:
     printed = printed_cases("Table 3")["terminal time"]
     for degree, group in starts[starts["converged"]].groupby("degree"):
         axes.plot(group["final_time"], np.full(len(group), degree), "|", color=BLUE, ms=10)
-        axes.plot(printed["direct", degree, 1], degree, "D", color=VERMILION, ms=5, mfc="none")
     axes.plot([], [], "|", color=BLUE, ms=10, label="a random start")
-    axes.plot([], [], "D", color=VERMILION, mfc="none", label="printed")
+    degrees = printed.index.get_level_values("degree")
+    axes.plot(printed, degrees, "D", color=VERMILION, ms=5, mfc="none", label="printed")
     axes.set_xlim(3.2, 4.6)
     axes.set_xlabel("$t_f$")
     axes.set_ylabel("degree N")
@@ -240,6 +248,8 @@ def _surfaces(
         axes.set_xticks(grid.index)
         axes.set_yticks(grid.columns)
         axes.tick_params(labelsize=7, pad=-1)
+        axes.tick_params(axis="z", pad=2)
+        axes.zaxis.set_major_locator(MaxNLocator(5))
         axes.ticklabel_format(axis="z", useOffset=False)
         axes.view_init(25, 50)
     return figure

@@ -142,7 +142,7 @@ def multistart(config: Config) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame
         strict=True,
     ):
         case = Case(degree, 1, "local")
-        bounds = {
+        bounds: dict[str, Any] = {
             "coefficient_bounds": tuple(config["bounds"]["coefficient"]),
             "time_bounds": (0.0, 0.9 * problem.longest_time),
         }

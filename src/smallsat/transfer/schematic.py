@@ -20,7 +20,7 @@ def orbit_figure(problem: TransferProblem, path: pd.DataFrame) -> tuple[Figure, 
         axes.plot(radius * np.cos(turn), radius * np.sin(turn), style, color="#999999", lw=0.8)
     x, y = path["r"] * np.cos(path["theta"]), path["r"] * np.sin(path["theta"])
     axes.plot(x, y, color=BLUE)
-    here = len(path) // 2
+    here = len(path) // 3
     _arrow(axes, (0, 0), (x.iloc[here], y.iloc[here]), BLACK, "$r_{P/O}$", at=0.55)
     axes.plot(x.iloc[here], y.iloc[here], "o", color=BLACK, ms=4)
     axes.annotate("P, m", (x.iloc[here], y.iloc[here]), (6, 4), textcoords="offset points")
@@ -83,8 +83,9 @@ def force_figure(problem: TransferProblem, state: pd.Series) -> tuple[Figure, pd
         "$F_G$": (0.0, -gravity),
         "$F_T$": (problem.thrust * np.cos(beta), problem.thrust * np.sin(beta)),
     }
-    for name, tip in vectors.items():
-        _arrow(axes, (0, 0), tip, GREEN if "G" in name else VERMILION, name)
+    _arrow(axes, (0, 0), vectors["$F_G$"], GREEN, "$F_G$")
+    # Thrust is small beside gravity: its name stands clear of the short arrow.
+    _arrow(axes, (0, 0), vectors["$F_T$"], VERMILION, "$F_T$", at=1.9)
     unit = 0.35 * gravity
     _arrow(axes, (0, 0), (unit, 0), "#aaaaaa", r"$u_\theta$")
     _arrow(axes, (0, 0), (0, unit), "#aaaaaa", "$u_r$")
@@ -113,9 +114,10 @@ def _arrow(
     axes.annotate(
         "", tip, start, arrowprops={"arrowstyle": "-|>", "color": colour, "lw": 1.2, "shrinkB": 0}
     )
-    place = np.array(start) + at * (np.array(tip) - np.array(start))
+    x, y = np.array(start) + at * (np.array(tip) - np.array(start))
     axes.text(
-        *place,
+        x,
+        y,
         name,
         color=colour,
         ha="center",
