@@ -115,6 +115,8 @@ def _study(
         "notebooks": [
             f"data/results/{document}/notebooks/{path.name}"
             for path in sorted((results / "notebooks").glob("*.ipynb"))
+            # Films are made only when asked for, and the report is the same with and without.
+            if not path.name.startswith("animation")
         ],
         "wrong": [
             {"id": row["id"], "reason": row["reason"], **value_texts(row)}
@@ -174,6 +176,8 @@ def _extras(path: Path, run: Path) -> list[Content]:
 
 
 def _cell(value: Any) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
     if isinstance(value, float):
         return significant_text(value, EXTRAS_DIGITS)
     return str(value)

@@ -1,5 +1,7 @@
 """Printed parameters of a study, grouped by what they feed."""
 
+import re
+
 import pandas as pd
 
 from smallsat.report.values import Content, records
@@ -46,11 +48,12 @@ def _distinct(rows: list[dict[str, str]], key: str) -> list[str]:
 
 
 def _places(locators: list[str]) -> list[str]:
-    """Locators of one sort together: Listing 1, Listing 4 becomes Listings 1, 4."""
+    """Locators of one sort together: Listing 1 (main), Listing 4 becomes Listings 1, 4."""
     sorts: dict[str, list[str]] = {}
     for locator in locators:
-        sort, _, place = locator.partition(" ")
-        sorts.setdefault(sort, []).append(place)
+        sort, _, place = re.sub(r" \(.*\)$", "", locator).partition(" ")
+        if place not in sorts.setdefault(sort, []):
+            sorts[sort].append(place)
     return [
         f"{sort}{'s' if len(places) > 1 else ''} {', '.join(places)}".strip()
         for sort, places in sorts.items()

@@ -1,0 +1,127 @@
+"""The published values: every one has a verdict, and none is wrong.
+
+`make test` lets Snakemake make the verdicts of the default configuration first; these tests read
+them. The expectations here are what the documents print and what the mathematics bounds, never
+what a run of ours gave.
+"""
+
+import pandas as pd
+import pytest
+
+from smallsat.config import read_yaml
+from smallsat.evidence.ledger import DOCUMENTS, read_artefacts, read_ledger
+from smallsat.evidence.printed import parse_printed
+from smallsat.evidence.verdicts import PENDING, VERDICTS
+
+BUILT = ("transfer", "mars")
+
+
+@pytest.fixture(scope="module")
+def ledger(root):
+    return {row["id"]: row for row in read_ledger(root / "data/published/values.csv")}
+
+
+@pytest.fixture(scope="module")
+def verdicts(root):
+    path = root / "data/results/verdicts.csv"
+    if not path.exists():
+        pytest.fail(f"{path.relative_to(root)} is missing; run `make test` or `snakemake verdicts`")
+    return pd.read_csv(path, keep_default_na=False, na_values=[""]).set_index("id")
+
+
+def test_ledger_has_every_printed_value(ledger):
+    """1714 values of five documents, each id once (the reader refuses duplicates)."""
+    counts = pd.Series([row["document"] for row in ledger.values()]).value_counts()
+    assert counts.to_dict() == {
+        "mars": 572, "transfer": 478, "rendezvous": 257, "slew": 214, "racing": 193
+    }  # fmt: skip
+
+
+def test_every_value_has_one_verdict(ledger, verdicts):
+    """The verdicts cover the ledger, row for row."""
+    assert sorted(verdicts.index) == sorted(ledger)
+    assert set(verdicts["verdict"]) <= {*VERDICTS, PENDING}
+
+
+def test_only_studies_not_built_are_pending(verdicts):
+    """No value of a built study waits for a verdict."""
+    pending = verdicts[verdicts["verdict"] == PENDING]
+    assert set(pending["document"]) == set(DOCUMENTS) - set(BUILT)
+
+
+def test_no_mismatch(verdicts):
+    """A mismatch is a printed value that we neither reproduce nor explain."""
+    wrong = verdicts[verdicts["verdict"] == "mismatch"]
+    assert wrong.empty, wrong[["printed", "computed", "reason"]].to_string()
+
+
+def test_every_verdict_has_a_reason(verdicts):
+    """Also the good ones say on what they rest."""
+    assert verdicts["reason"].notna().all()
+
+
+def test_reproduced_results_equal_the_printed_digits(ledger, verdicts):
+    """Recomputed here from the two columns alone: half a unit of the last printed digit."""
+    for identifier, row in verdicts[verdicts["verdict"] == "reproduced"].iterrows():
+        if ledger[identifier]["kind"] == "result":
+            printed = parse_printed(ledger[identifier]["printed"])
+            assert printed is not None and printed.matches(row["computed"]), identifier
+
+
+@pytest.mark.parametrize("table", ["Table 1", "Table 2", "Table 3"])
+def test_transfer_tables_one_to_three_are_reproduced(verdicts, table):
+    """Every final time and mass of the first three tables comes out to the printed digits."""
+    rows = verdicts[(verdicts["document"] == "transfer") & (verdicts["locator"] == table)]
+    results = rows[rows["quantity"].isin(["terminal time", "terminal mass"])]
+    assert len(results) and (results["verdict"] == "reproduced").all()
+
+
+def test_transfer_table_four_is_reproduced_or_surpassed(verdicts):
+    """Row by row; the one mass that contradicts its own time is an erratum."""
+    rows = verdicts[(verdicts["document"] == "transfer") & (verdicts["locator"] == "Table 4")]
+    times = rows[rows["quantity"] == "terminal time"]["verdict"]
+    masses = rows[rows["quantity"] == "terminal mass"]["verdict"]
+    assert len(times) == len(masses) == 20
+    assert set(times) <= {"reproduced", "surpassed"}
+    assert masses[masses == "erratum"].index.tolist() == [
+        "transfer/table-4/terminal-mass/direct-multiple-shooting-n-4-k-16"
+    ]
+    assert set(masses) <= {"reproduced", "surpassed", "erratum"}
+
+
+def test_mars_errata_are_the_two_known_ones(verdicts):
+    """All results of the Mars document hold but for two misprinted ones and a misnamed gain."""
+    rows = verdicts[(verdicts["document"] == "mars")]
+    for identifier in (
+        "mars/table-8/sigma-b-n-at-t-4400-s/full-mission/1",
+        "mars/section-vi-d/dcm-rnn-330-s/lmo/32",
+    ):
+        assert rows.loc[identifier, "verdict"] == "erratum"
+    tables = rows[rows["locator"].isin([f"Table {n}" for n in (3, 4, 5, 6, 8)])]
+    lost = tables["printed"] == "(illegible)"
+    results = tables[tables["quantity"].str.contains("B/") & ~lost]
+    assert (results["verdict"] == "reproduced").sum() == len(results) - 1
+
+
+@pytest.mark.parametrize("document", BUILT)
+def test_every_proof_holds(root, document):
+    """An erratum stands only with a proof that runs and holds."""
+    errata = pd.read_csv(root / f"data/results/{document}/errata.csv")
+    assert errata["holds"].all(), errata.loc[~errata["holds"], ["key", "statement"]].to_string()
+    assert len(errata) == len(read_yaml(root / f"data/published/{document}/errata.yaml"))
+
+
+@pytest.mark.parametrize("document", BUILT)
+def test_every_claim_is_judged(root, document):
+    """Each claim has one of the three outcomes, and evidence."""
+    claims = pd.read_csv(root / f"data/results/{document}/claims.csv")
+    assert claims["outcome"].isin(["holds", "fails", "undecided"]).all()
+    assert claims["evidence"].notna().all()
+
+
+def test_artefacts_have_targets(root):
+    """231 artefacts; those of built studies name a target, the others are pending."""
+    artefacts = read_artefacts(root / "data/published/artefacts.csv")
+    assert len(artefacts) == 28 + 200 + 3
+    for row in artefacts:
+        assert bool(row["target"]) == (row["document"] in BUILT), row
