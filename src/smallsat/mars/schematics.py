@@ -73,7 +73,7 @@ def body_frame(given: Parameters) -> Drawing:
     sides /= sides.max()
     figure = new_figure(figsize=(4.6, 3.0))
     figure.set_layout_engine("none")
-    axes = view(figure, (-0.08, -0.2, 1.16, 1.4), 1.15, 1.15, elevation=24, azimuth=-60)
+    axes = view(figure, (-0.05, -0.24, 1.1, 1.3), 1.3, 1.15, elevation=24, azimuth=-60)
     corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * sides / 2
     quads = ((0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5))
     colours = ["#d9d9d9"] * 5 + ["#9fc3e0"]

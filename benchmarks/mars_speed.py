@@ -1,0 +1,120 @@
+"""The Mars mission: compiled loop against the same steps in plain NumPy, as a ratio in one run."""
+
+import time
+from pathlib import Path
+
+import numpy as np
+
+from smallsat.config import read_yaml
+from smallsat.mars.parameters import Parameters, parameters
+from smallsat.mars.simulation import AUTOMATIC, run
+
+CONFIG = Path(__file__).parents[1] / "config/default.yaml"
+REPETITIONS = 5
+
+
+def measure() -> dict[str, float]:
+    """Seconds of the mission both ways, the ratio, and the largest difference of the attitudes."""
+    section = read_yaml(CONFIG)["mars"]
+    given = parameters(section)
+    duration, step = section["durations_s"]["mission"], section["step_s"]
+    switch = section["mrp_switch"]["mission"]
+    arguments = (given, AUTOMATIC, duration, step, step, switch)
+    compiled = run(*arguments)  # compiles
+    compiled_s = min(_seconds(lambda: run(*arguments)) for _ in range(REPETITIONS))
+    began = time.perf_counter()
+    plain = plain_mission(given, duration, step, switch)
+    plain_s = time.perf_counter() - began
+    return {
+        "compiled_s": compiled_s,
+        "plain_numpy_s": plain_s,
+        "ratio": plain_s / compiled_s,
+        "largest_difference": float(np.max(np.abs(compiled[:, 1:7] - plain))),
+    }
+
+
+def plain_mission(given: Parameters, duration: float, step: float, switch: float) -> np.ndarray:
+    """States of the mission, shape (steps + 1, 6), a NumPy expression at a time."""
+    state = given.initial_state.copy()
+    states = [state]
+    inertia, inverse = np.diag(given.inertia), np.diag(1.0 / given.inertia)
+
+    def rate_of(state: np.ndarray, torque: np.ndarray) -> np.ndarray:
+        sigma, rate = state[:3], state[3:]
+        matrix = (1 - sigma @ sigma) * np.eye(3) + 2 * _tilde(sigma) + 2 * np.outer(sigma, sigma)
+        return np.r_[matrix @ rate / 4, inverse @ (torque - _tilde(rate) @ inertia @ rate)]
+
+    for k in range(round(duration / step)):
+        frame, frame_rate = _reference(given, k * step, step)
+        body = _dcm(state[:3])
+        sigma = _mrp(body @ frame.T)
+        torque = -given.gains.k * sigma - given.gains.p * (state[3:] - body @ frame_rate)
+        k1 = step * rate_of(state, torque)
+        k2 = step * rate_of(state + k1 / 2, torque)
+        k3 = step * rate_of(state + k2 / 2, torque)
+        k4 = step * rate_of(state + k3, torque)
+        state = state + (k1 + 2 * k2 + 2 * k3 + k4) / 6
+        if np.linalg.norm(state[:3]) > switch:
+            state[:3] = -state[:3] / (state[:3] @ state[:3])
+        states.append(state)
+    return np.array(states)
+
+
+def _reference(given: Parameters, time: float, difference: float):
+    lmo, gmo = _orbit_frame(given.lmo, time), _orbit_frame(given.gmo, time)
+    if lmo[0, 1] > 0:
+        return np.array([[-1.0, 0, 0], [0, 0, 1], [0, 1, 0]]), np.zeros(3)
+    if np.arccos(lmo[0] @ gmo[0]) <= given.visibility:
+        now, later = _gmo_frame(given, time), _gmo_frame(given, time + difference)
+        tilde = -(later - now) / difference @ now.T
+        return now, now.T @ np.array([-tilde[1, 2], tilde[0, 2], -tilde[0, 1]])
+    return np.diag([-1.0, 1.0, -1.0]) @ lmo, given.lmo.rate * lmo[2]
+
+
+def _gmo_frame(given: Parameters, time: float) -> np.ndarray:
+    sight = (
+        given.gmo.radius * _orbit_frame(given.gmo, time)[0]
+        - given.lmo.radius * _orbit_frame(given.lmo, time)[0]
+    )
+    first = -sight / np.linalg.norm(sight)
+    second = np.cross(sight, [0.0, 0.0, 1.0])
+    second /= np.linalg.norm(second)
+    return np.array([first, second, np.cross(first, second)])
+
+
+def _orbit_frame(orbit, time: float) -> np.ndarray:
+    def about_3(angle):
+        c, s = np.cos(angle), np.sin(angle)
+        return np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
+
+    c, s = np.cos(orbit.inclination), np.sin(orbit.inclination)
+    about_1 = np.array([[1, 0, 0], [0, c, s], [0, -s, c]])
+    return about_3(orbit.latitude_angle + orbit.rate * time) @ about_1 @ about_3(orbit.raan)
+
+
+def _tilde(v: np.ndarray) -> np.ndarray:
+    return np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+
+
+def _dcm(sigma: np.ndarray) -> np.ndarray:
+    squared, tilde = sigma @ sigma, _tilde(sigma)
+    return np.eye(3) + (8 * tilde @ tilde - 4 * (1 - squared) * tilde) / (1 + squared) ** 2
+
+
+def _mrp(dcm: np.ndarray) -> np.ndarray:
+    root = np.sqrt(np.trace(dcm) + 1)
+    skew = np.array([dcm[1, 2] - dcm[2, 1], dcm[2, 0] - dcm[0, 2], dcm[0, 1] - dcm[1, 0]])
+    sigma = skew / (root * (root + 2))
+    squared = sigma @ sigma
+    return sigma if squared <= 1 else -sigma / squared
+
+
+def _seconds(function) -> float:
+    began = time.perf_counter()
+    function()
+    return time.perf_counter() - began
+
+
+if __name__ == "__main__":
+    for name, value in measure().items():
+        print(f"{name:20} {value:.4g}")

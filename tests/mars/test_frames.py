@@ -1,0 +1,64 @@
+"""Reference frames: orthonormal, pointing where they should, turning as their rates say."""
+
+import numpy as np
+import pytest
+
+from smallsat.dynamics.circular_orbits import position, velocity
+from smallsat.mars.frames import (
+    SUN_FRAME,
+    gmo_frame,
+    gmo_frame_rate,
+    nadir_frame,
+    nadir_frame_rate,
+)
+
+TIMES = np.linspace(0.0, 88_620.0, 40)
+
+
+def derivative_rate(frame, time, h=0.05):
+    """Inertial rate by a central difference: [NR] d[RN]/dt is minus the cross-product matrix."""
+    change = (np.array(frame(time + h)) - np.array(frame(time - h))) / (2 * h)
+    tilde = -np.array(frame(time)).T @ change
+    return np.array([tilde[2, 1], tilde[0, 2], tilde[1, 0]])
+
+
+@pytest.mark.parametrize("time", TIMES)
+def test_frames_are_rotations(given, time):
+    """Orthonormal and right-handed, to 1e-13."""
+    frames = (SUN_FRAME, nadir_frame(given.lmo, time), gmo_frame(given.lmo, given.gmo, time))
+    for frame in map(np.array, frames):
+        np.testing.assert_allclose(frame @ frame.T, np.eye(3), rtol=0, atol=1e-13)
+        assert np.linalg.det(frame) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("time", TIMES)
+def test_frames_point_where_they_should(given, time):
+    """b3 to the Sun, b1 to Mars's centre with b2 along the velocity, -b1 to the mothercraft."""
+    r, v = np.array(position(given.lmo, time)), np.array(velocity(given.lmo, time))
+    np.testing.assert_allclose(SUN_FRAME[2], [0.0, 1.0, 0.0])
+    nadir = np.array(nadir_frame(given.lmo, time))
+    np.testing.assert_allclose(nadir[0], -r / np.linalg.norm(r), atol=1e-13)
+    np.testing.assert_allclose(nadir[1], v / np.linalg.norm(v), atol=1e-13)
+    sight = np.array(position(given.gmo, time)) - r
+    to_gmo = np.array(gmo_frame(given.lmo, given.gmo, time))
+    np.testing.assert_allclose(-to_gmo[0], sight / np.linalg.norm(sight), atol=1e-13)
+    assert to_gmo[1, 2] == 0.0
+
+
+@pytest.mark.parametrize("time", TIMES[:10])
+def test_nadir_rate(given, time):
+    """The closed form against a central difference, to 1e-6 of its size."""
+    expected = derivative_rate(lambda t: nadir_frame(given.lmo, t), time)
+    rate = nadir_frame_rate(given.lmo, time)
+    np.testing.assert_allclose(rate, expected, rtol=0, atol=1e-6 * given.lmo.rate)
+
+
+@pytest.mark.parametrize("time", TIMES[:10])
+def test_gmo_rate_approaches_the_derivative(given, time):
+    """The forward difference's error falls in proportion to its span, to 10 %."""
+    exact = derivative_rate(lambda t: gmo_frame(given.lmo, given.gmo, t), time)
+    errors = [
+        np.linalg.norm(gmo_frame_rate(given.lmo, given.gmo, time, span) - exact)
+        for span in (2.0, 1.0)
+    ]
+    assert errors[0] / errors[1] == pytest.approx(2.0, rel=0.1)

@@ -1,0 +1,32 @@
+"""Observations: one for each published result, and a clear word about impossible answer times."""
+
+import copy
+from pathlib import Path
+
+import pytest
+
+from smallsat.errors import InputError
+from smallsat.evidence.ledger import read_ledger
+from smallsat.mars.observations import observations
+
+LEDGER = Path(__file__).parents[2] / "data/published/values.csv"
+
+
+def test_every_published_result_is_observed_once(section, given, runs):
+    """The ids are exactly those of the document's results in the ledger."""
+    observed = [observation.id for observation in observations(section, given, runs)]
+    published = [
+        row["id"]
+        for row in read_ledger(LEDGER)
+        if row["document"] == "mars" and row["kind"] == "result"
+    ]
+    assert sorted(observed) == sorted(published)
+
+
+@pytest.mark.parametrize("time", [7000.0, 0.5])
+def test_an_answer_time_off_the_grid_is_named(section, given, runs, time):
+    """Beyond the run or between two steps: an input error with key and value."""
+    changed = copy.deepcopy(section)
+    changed["answer_times_s"]["mission"][0] = time
+    with pytest.raises(InputError, match=rf"answer_times_s\.mission': {time:g}"):
+        observations(changed, given, runs)
