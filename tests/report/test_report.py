@@ -229,3 +229,9 @@ def test_a_broken_template_is_named_and_the_old_report_stays(project, reproducti
     finally:
         chapter.write_text(good)
     assert report.read_bytes() == before
+
+
+def test_an_erratum_gives_printed_and_correct_on_the_front(reproduction):
+    front = Page(reproduction / "report.html").text
+    copies = "two mass rows are copies"
+    assert f"erratum {copies}: printed: {copies}; correct: {copies}." in front
