@@ -29,7 +29,7 @@ for study in STUDIES:
             f"logs/{study}/verdicts.benchmark.tsv"
         params:
             study=study,
-            published=project("data/published"),
+            published=lambda w, input: os.path.dirname(input.ledger),
             config=as_json({key: value for key, value in config.items() if key != "run"}),
         shell:
             "python -m smallsat.evidence study {params.study} --config {params.config:q}"
@@ -75,7 +75,7 @@ rule merge_verdicts:
     benchmark:
         "logs/merge_verdicts.benchmark.tsv"
     params:
-        published=project("data/published"),
+        published=lambda w, input: os.path.dirname(input.ledger),
     shell:
         "python -m smallsat.evidence merge --published {params.published} --output {output}"
         " {input.verdicts} > {log} 2>&1"
@@ -84,7 +84,8 @@ rule merge_verdicts:
 # Fails where a verdict is wrong, so that a build with a mismatch does not pass for one without.
 rule accept_verdicts:
     input:
-        "data/results/verdicts.csv",
+        verdicts="data/results/verdicts.csv",
+        ledger=project("data/published/values.csv"),
     output:
         touch("data/results/verdicts.accepted"),
     log:
@@ -92,10 +93,10 @@ rule accept_verdicts:
     benchmark:
         "logs/accept_verdicts.benchmark.tsv"
     params:
-        published=project("data/published"),
+        published=lambda w, input: os.path.dirname(input.ledger),
         what_if="" if RUN_FOLDER == "." else "--what-if",
     shell:
-        "python -m smallsat.evidence summary {input} --published {params.published}"
+        "python -m smallsat.evidence summary {input.verdicts} --published {params.published}"
         " {params.what_if} > {log} 2>&1"
 
 
@@ -109,12 +110,13 @@ rule verdicts:
 # Has no output: it prints the summary every time it is asked for.
 rule check:
     input:
-        "data/results/verdicts.csv",
+        verdicts="data/results/verdicts.csv",
+        ledger=project("data/published/values.csv"),
     log:
         "logs/check.log",
     params:
-        published=project("data/published"),
+        published=lambda w, input: os.path.dirname(input.ledger),
         what_if="" if RUN_FOLDER == "." else "--what-if",
     shell:
-        "python -m smallsat.evidence summary {input} --published {params.published}"
+        "python -m smallsat.evidence summary {input.verdicts} --published {params.published}"
         " {params.what_if} | tee {log}; exit ${{PIPESTATUS[0]}}"

@@ -138,7 +138,7 @@ rule transfer_observations:
     benchmark:
         "logs/transfer/observations.benchmark.tsv"
     params:
-        published=project("data/published"),
+        published=lambda w, input: os.path.dirname(input.ledger),
     shell:
         "python -m smallsat.transfer.observe values --published {params.published}"
         f" --results {TRANSFER} > {{log}} 2>&1"
