@@ -49,7 +49,7 @@ rule mars_simulation:
         "logs/mars/simulation.benchmark.tsv"
     params:
         config=as_json(MARS_SECTION),
-        folder=MARS,
+        folder=lambda _, output: os.path.dirname(output[0]),
     shell:
         "python -m smallsat.mars simulate --config {params.config:q}"
         " --output-folder {params.folder} > {log} 2>&1"
@@ -66,7 +66,7 @@ rule mars_independent_check:
         "logs/mars/independent_check.benchmark.tsv"
     params:
         config=as_json(MARS_SECTION),
-        folder=MARS,
+        folder=lambda _, output: os.path.dirname(output[0]),
     shell:
         "python -m smallsat.mars check --config {params.config:q}"
         " --output-folder {params.folder} > {log} 2>&1"
