@@ -15,6 +15,7 @@ from smallsat.config import read_yaml, run_folder, validate
 from smallsat.errors import InputError
 from smallsat.evidence.ledger import read_artefacts, read_ledger
 from smallsat.sources import source_files
+from smallsat.targets import refusal
 
 
 # The environment is .venv, made from requirements.lock. Snakemake's linter asks for a container
@@ -48,4 +49,17 @@ include: "rules/transfer.smk"
 include: "rules/mars.smk"
 include: "rules/evidence.smk"
 include: "rules/report.smk"
+
+
+rule all:
+    default_target: True
+    input:
+        rules.report.output,
+        "data/results/verdicts.accepted",
+        TABLES,
+        FIGURES,
+    log:
+        "logs/all.log",
+
+
 include: "rules/unknown.smk"

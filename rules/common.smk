@@ -1,4 +1,4 @@
-# What the rule files share: paths, import closures, and the files that one artefact consists of.
+# What these files share: paths, import closures, and the files that one artefact consists of.
 
 
 def project(path):

@@ -41,7 +41,8 @@ for study in STUDIES:
             f"{study}_tables"
         input:
             notebook=project("notebooks/tables.ipynb"),
-            sources=NOTEBOOK_SOURCES + sources("smallsat.evidence.ledger", "smallsat.results"),
+            sources=NOTEBOOK_SOURCES
+            + sources("smallsat.evidence.ledger", "smallsat.results", "smallsat.report.values"),
             artefacts=project("data/published/artefacts.csv"),
             verdicts=f"data/results/{study}/verdicts.csv",
         output:

@@ -83,17 +83,6 @@ rule report:
         " --output {output.html}) > {log} 2>&1"
 
 
-rule all:
-    default_target: True
-    input:
-        rules.report.output,
-        "data/results/verdicts.accepted",
-        TABLES,
-        FIGURES,
-    log:
-        "logs/all.log",
-
-
 rule animations:
     input:
         ANIMATIONS,

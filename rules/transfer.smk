@@ -18,9 +18,18 @@ STUDY_RESULTS["transfer"] = [
 ] + [f"{TRANSFER}/indirect.parquet"]
 
 
-def case_files(name):
-    """Cases, trajectories and seconds of a run."""
-    return [f"{TRANSFER}/{name}{suffix}" for suffix in (".csv", ".parquet", "-seconds.csv")]
+# Cases, trajectories and seconds of each run.
+CASE_FILES = {
+    name: [f"{TRANSFER}/{name}{suffix}" for suffix in (".csv", ".parquet", "-seconds.csv")]
+    for name in (
+        "indirect",
+        "as-published",
+        "converged",
+        "continuous",
+        "multistart",
+        *[f"as-published-k{k}" for k in TRANSFER_SHARDS],
+    )
+}
 
 
 for experiment in ("indirect", "converged", "continuous"):
@@ -31,7 +40,7 @@ for experiment in ("indirect", "converged", "continuous"):
         input:
             sources("smallsat.transfer.solve"),
         output:
-            case_files(experiment),
+            CASE_FILES[experiment],
         log:
             f"logs/transfer/{experiment}.log",
         benchmark:
@@ -48,7 +57,7 @@ rule transfer_multistart:
     input:
         sources("smallsat.transfer.solve"),
     output:
-        case_files("multistart"),
+        CASE_FILES["multistart"],
         f"{TRANSFER}/multistart-starts.csv",
     log:
         "logs/transfer/multistart.log",
@@ -70,7 +79,7 @@ for intervals in TRANSFER_SHARDS:
         input:
             sources("smallsat.transfer.solve"),
         output:
-            case_files(f"as-published-k{intervals}"),
+            CASE_FILES[f"as-published-k{intervals}"],
         log:
             f"logs/transfer/as-published-k{intervals}.log",
         benchmark:
@@ -89,10 +98,10 @@ for intervals in TRANSFER_SHARDS:
 rule transfer_gather:
     input:
         sources("smallsat.transfer.observe"),
-        shards=[case_files(f"as-published-k{k}") for k in TRANSFER_SHARDS],
+        shards=[CASE_FILES[f"as-published-k{k}"] for k in TRANSFER_SHARDS],
         ledger=project("data/published/values.csv"),
     output:
-        case_files("as-published"),
+        CASE_FILES["as-published"],
         f"{TRANSFER}/early-stopping.csv",
     log:
         "logs/transfer/gather.log",
@@ -126,7 +135,7 @@ rule transfer_observations:
     input:
         sources("smallsat.transfer.observe"),
         cases=[
-            case_files(name)
+            CASE_FILES[name]
             for name in ("indirect", "as-published", "converged", "multistart", "continuous")
         ],
         ledger=project("data/published/values.csv"),
@@ -156,12 +165,17 @@ TRANSFER_FIGURES = [
 ]
 
 
-def trajectories(method, intervals):
-    """Files with the trajectories of a case, the document's kind of run first."""
-    if method == "indirect":
-        return [f"{TRANSFER}/indirect.parquet"]
-    best = "converged" if intervals > 1 else "multistart"
-    return [f"{TRANSFER}/as-published-k{intervals}.parquet", f"{TRANSFER}/{best}.parquet"]
+# Trajectories of a case, the document's kind of run first.
+TRAJECTORIES = {
+    ("indirect", 1): [f"{TRANSFER}/indirect.parquet"],
+    ("direct", 1): [f"{TRANSFER}/as-published-k1.parquet", f"{TRANSFER}/multistart.parquet"],
+}
+for k in DOCUMENT_INTERVALS:
+    TRAJECTORIES["indirect", k] = [f"{TRANSFER}/indirect.parquet"]
+    TRAJECTORIES["direct", k] = [
+        f"{TRANSFER}/as-published-k{k}.parquet",
+        f"{TRANSFER}/converged.parquet",
+    ]
 
 
 for place, (method, degree, intervals) in enumerate(TRANSFER_FIGURES):
@@ -181,7 +195,7 @@ for place, (method, degree, intervals) in enumerate(TRANSFER_FIGURES):
             notebook=project("notebooks/transfer/case.ipynb"),
             sources=NOTEBOOK_SOURCES
             + sources("smallsat.transfer.case_plot", "smallsat.report.figure"),
-            trajectories=trajectories(method, intervals),
+            trajectories=TRAJECTORIES[method, intervals],
         output:
             figure_files(*stems),
             notebook=f"{TRANSFER}/notebooks/{case}.ipynb",
@@ -195,7 +209,7 @@ for place, (method, degree, intervals) in enumerate(TRANSFER_FIGURES):
                     "method": method,
                     "degree": degree,
                     "intervals": intervals,
-                    "trajectories": trajectories(method, intervals),
+                    "trajectories": TRAJECTORIES[method, intervals],
                     "states_stem": stems[0],
                     "control_stem": stems[1],
                 }

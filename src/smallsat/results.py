@@ -1,6 +1,7 @@
 """Reading and writing result tables: whole files or none, and a clear word about damaged ones."""
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -28,8 +29,11 @@ def write_table(table: pd.DataFrame, path: Path, digits: int = CSV_DIGITS) -> No
     partial.replace(path)
 
 
-def read_table(path: Path) -> pd.DataFrame:
+def read_table(path: Path, text: Sequence[str] = ()) -> pd.DataFrame:
     """Read a table written by `write_table`.
+
+    Columns named in ``text`` stay text even where all their entries are numbers: a printed
+    ``0.75550`` keeps its zeros.
 
     Raises
     ------
@@ -40,7 +44,9 @@ def read_table(path: Path) -> pd.DataFrame:
     try:
         if path.suffix == ".parquet":
             return pd.read_parquet(path)
-        return pd.read_csv(path, keep_default_na=False, na_values=[""])
+        return pd.read_csv(
+            path, keep_default_na=False, na_values=[""], dtype=dict.fromkeys(text, str)
+        )
     except FileNotFoundError:
         raise InputError(f"{path}: no such results file; run `snakemake {path}`") from None
     except (ValueError, OSError, pd.errors.ParserError) as error:

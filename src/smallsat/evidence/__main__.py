@@ -12,7 +12,7 @@ from smallsat.evidence.claims import judge_claims
 from smallsat.evidence.errata import prove_errata
 from smallsat.evidence.ledger import DOCUMENTS, read_ledger
 from smallsat.evidence.summary import failures, summary_text
-from smallsat.evidence.verdicts import judge, pending
+from smallsat.evidence.verdicts import TEXT_COLUMNS, judge, pending
 from smallsat.results import read_table, write_table
 
 
@@ -66,7 +66,7 @@ def _study(arguments: argparse.Namespace) -> None:
 
 def _merge(arguments: argparse.Namespace) -> None:
     rows = read_ledger(arguments.published / "values.csv")
-    judged = [read_table(path) for path in arguments.verdicts]
+    judged = [read_table(path, TEXT_COLUMNS) for path in arguments.verdicts]
     done = {document for table in judged for document in table["document"]}
     tables = {document: table for table in judged for document in table["document"].unique()}
     for document in DOCUMENTS:
@@ -81,7 +81,7 @@ def _merge(arguments: argparse.Namespace) -> None:
 def _summary(arguments: argparse.Namespace) -> None:
     rows = read_ledger(arguments.published / "values.csv")
     kinds = pd.Series({row["id"]: row["kind"] for row in rows})
-    verdicts = read_table(arguments.verdicts)
+    verdicts = read_table(arguments.verdicts, TEXT_COLUMNS)
     report = arguments.verdicts.parent.parent.parent / "report/build/report.pdf"
     print(summary_text(verdicts, kinds, report))
     if len(failures(verdicts)) and not arguments.what_if:

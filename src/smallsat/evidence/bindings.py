@@ -55,7 +55,7 @@ def agrees(row: Mapping[str, str], binding: Mapping[str, Any], value: float) -> 
 
 def _component(value: np.ndarray, component: str, identifier: str) -> Any:
     axes = {"x": 0, "y": 1, "z": 2, "min": 0, "max": -1}
-    if match := re.fullmatch(r"item (\d+)", component):
+    if match := re.fullmatch(r"item ([1-9]\d*)", component):
         index: tuple[int, ...] = (int(match[1]) - 1,)
     elif component in axes:
         index = (axes[component],)

@@ -37,6 +37,7 @@ VERDICT_COLUMNS = (
     "verdict",
     "reason",
 )
+TEXT_COLUMNS = ("case", "component", "printed", "unit")
 RULE_KINDS = ("tolerance", "truncated", "objective", "unreproducible", "context")
 
 Row = Mapping[str, str]

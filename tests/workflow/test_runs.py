@@ -1,0 +1,126 @@
+"""The workflow itself: one figure, a changed source, a what-if run, a kill, a damaged file."""
+
+import os
+import signal
+import subprocess
+import time
+
+import pytest
+
+# Two of the document's cases: enough to exercise shards, and quick to solve.
+SMALL = 'transfer={"degrees": [2, 3], "intervals": [2, 4]}'
+
+
+def test_dry_run_of_everything_is_tens_of_jobs(project):
+    """A full build from nothing is planned without error, in fewer than a hundred jobs."""
+    done = project.jobs()
+    total = next(line for line in done.splitlines() if line.startswith("total"))
+    assert 40 < int(total.split()[1]) < 100
+
+
+@pytest.fixture(scope="module")
+def built(make_project):
+    """A project with one figure of each study built."""
+    project = make_project()
+    done = project.snakemake("figures/transfer/fig-05.svg", "data/results/mars/modes.csv")
+    assert done.returncode == 0, done.stdout + done.stderr
+    return project
+
+
+def test_one_figure(built):
+    """Asking for one figure makes its three formats and data, and nothing of other cases."""
+    folder = built.folder / "figures/transfer"
+    made = sorted(path.name for path in folder.iterdir())
+    assert made == sorted(
+        f"fig-{n}.{suffix}" for n in ("05", "06") for suffix in ("csv", "pdf", "png", "svg")
+    )
+    assert (built.folder / "data/results/transfer/notebooks/indirect-n0-k1.ipynb").exists()
+    assert not (built.folder / "data/results/transfer/converged.csv").exists()
+
+
+def test_nothing_to_do_twice(built):
+    """A second call finds everything up to date."""
+    assert "Nothing to be done" in built.jobs("figures/transfer/fig-05.svg")
+
+
+@pytest.mark.parametrize(
+    ("module", "reruns", "keeps"),
+    [
+        ("transfer/indirect.py", "transfer_indirect", "mars_simulation"),
+        ("transfer/case_plot.py", "transfer_figures_indirect_n0_k1", "transfer_indirect"),
+        ("dynamics/circular_orbits.py", "mars_simulation", "transfer_indirect"),
+    ],
+)
+def test_a_changed_source_reruns_what_imports_it(built, module, reruns, keeps):
+    """Touching an imported module reruns the rules that use it, and only those."""
+    path = built.folder / "src/smallsat" / module
+    before = path.stat()
+    os.utime(path)
+    try:
+        jobs = built.jobs("figures/transfer/fig-05.svg", "data/results/mars/modes.csv")
+    finally:
+        os.utime(path, ns=(before.st_atime_ns, before.st_mtime_ns))
+    assert reruns in jobs
+    assert keeps not in jobs
+
+
+def test_what_if_has_its_own_folder(built):
+    """A changed parameter runs in runs/<name>/ and leaves the reproduction untouched."""
+    original = (built.folder / "data/results/transfer/indirect.csv").read_bytes()
+    settings = ("--config", "run=heavier", 'transfer={"problem": {"initial_mass": 1.05}}')
+    done = built.snakemake("figures/transfer/fig-05.svg", *settings)
+    assert done.returncode == 0, done.stdout + done.stderr
+    folder = built.folder / "runs/heavier"
+    assert (folder / "figures/transfer/fig-05.svg").exists()
+    assert (folder / "data/results/transfer/indirect.csv").read_bytes() != original
+    assert (built.folder / "data/results/transfer/indirect.csv").read_bytes() == original
+
+
+def test_a_truncated_results_file_is_named(built):
+    """A damaged Parquet file stops the figure with one line that names it; nothing else is lost."""
+    path = built.folder / "data/results/transfer/indirect.parquet"
+    intact = path.read_bytes()
+    path.write_bytes(intact[: len(intact) // 2])
+    try:
+        done = built.snakemake("figures/transfer/fig-05.svg")
+    finally:
+        path.write_bytes(intact)
+    output = done.stdout + done.stderr
+    assert done.returncode != 0
+    assert "smallsat: data/results/transfer/indirect.parquet: damaged results file" in output
+    assert "Traceback" not in output
+    assert (built.folder / "data/results/transfer/indirect.csv").exists()
+
+
+def _shards(folder):
+    return sorted((folder / "data/results/transfer").glob("as-published-k*.csv"))
+
+
+def test_a_killed_run_resumes(make_project):
+    """SIGKILL to Snakemake and its jobs: finished shards stay, the rest comes out the same."""
+    project = make_project()
+    target = "data/results/transfer/as-published.csv"
+    undisturbed = project.folder / "runs/undisturbed"
+    killed = project.folder / "runs/killed"
+    whole = project.snakemake(target, "--config", "run=undisturbed", SMALL)
+    assert whole.returncode == 0, whole.stdout + whole.stderr
+
+    process = subprocess.Popen(
+        project.command(target, "--config", "run=killed", SMALL),
+        cwd=project.folder,
+        env=project.environment,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
+    )
+    deadline = time.monotonic() + 120
+    while not _shards(killed) and time.monotonic() < deadline:
+        time.sleep(0.02)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+    finished = {path: path.stat().st_mtime_ns for path in _shards(killed)}
+    assert finished and not (killed / target).exists()
+
+    resumed = project.snakemake(target, "--config", "run=killed", SMALL)
+    assert resumed.returncode == 0, resumed.stdout + resumed.stderr
+    assert (killed / target).read_bytes() == (undisturbed / target).read_bytes()
