@@ -81,7 +81,7 @@ for name, figures in MARS_SCHEMATICS.items():
             notebook=project("notebooks/mars/schematics.ipynb"),
             sources=NOTEBOOK_SOURCES
             + sources(
-                "smallsat.mars.schematics", "smallsat.report.figure", "smallsat.report.style"
+                "smallsat.mars.schematics", "smallsat.drawing.figure", "smallsat.drawing.style"
             ),
         output:
             figure_files(*[f"figures/mars/{figure}" for figure in figures]),
@@ -108,8 +108,8 @@ for name, figures in MARS_RESPONSES.items():
             sources=NOTEBOOK_SOURCES
             + sources(
                 "smallsat.mars.response_plot",
-                "smallsat.report.figure",
-                "smallsat.report.style",
+                "smallsat.drawing.figure",
+                "smallsat.drawing.style",
                 "smallsat.results",
             ),
             trajectories=f"{MARS}/trajectories.parquet",
@@ -142,8 +142,8 @@ for name, figures in MARS_SCENES.items():
             sources=NOTEBOOK_SOURCES
             + sources(
                 "smallsat.mars.scene",
-                "smallsat.report.figure",
-                "smallsat.report.style",
+                "smallsat.drawing.figure",
+                "smallsat.drawing.style",
                 "smallsat.results",
             ),
             trajectories=f"{MARS}/trajectories.parquet",
@@ -173,8 +173,8 @@ rule mars_day_modes:
         sources=NOTEBOOK_SOURCES
         + sources(
             "smallsat.mars.mode_plot",
-            "smallsat.report.figure",
-            "smallsat.report.style",
+            "smallsat.drawing.figure",
+            "smallsat.drawing.style",
             "smallsat.results",
         ),
         intervals=f"{MARS}/modes.csv",
@@ -213,7 +213,7 @@ for run, (film, trajectory, step) in MARS_FILMS.items():
         input:
             notebook=project("notebooks/mars/animation.ipynb"),
             sources=NOTEBOOK_SOURCES
-            + sources("smallsat.mars.animation", "smallsat.report.style", "smallsat.results"),
+            + sources("smallsat.mars.animation", "smallsat.drawing.style", "smallsat.results"),
             trajectory=f"{MARS}/{trajectory}",
         output:
             f"figures/mars/{film}.mp4",

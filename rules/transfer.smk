@@ -194,7 +194,7 @@ for place, (method, degree, intervals) in enumerate(TRANSFER_FIGURES):
         input:
             notebook=project("notebooks/transfer/case.ipynb"),
             sources=NOTEBOOK_SOURCES
-            + sources("smallsat.transfer.case_plot", "smallsat.report.figure"),
+            + sources("smallsat.transfer.case_plot", "smallsat.drawing.figure"),
             trajectories=TRAJECTORIES[method, intervals],
         output:
             figure_files(*stems),
@@ -221,7 +221,7 @@ for place, (method, degree, intervals) in enumerate(TRANSFER_FIGURES):
 rule transfer_schematics:
     input:
         notebook=project("notebooks/transfer/schematics.ipynb"),
-        sources=NOTEBOOK_SOURCES + sources("smallsat.transfer.schematic", "smallsat.report.figure"),
+        sources=NOTEBOOK_SOURCES + sources("smallsat.transfer.schematic", "smallsat.drawing.figure"),
         trajectories=f"{TRANSFER}/indirect.parquet",
     output:
         figure_files(*[f"figures/transfer/fig-{n:02d}" for n in range(1, 5)]),
@@ -249,7 +249,7 @@ rule transfer_comparisons:
         + sources(
             "smallsat.transfer.comparison_plot",
             "smallsat.transfer.tables",
-            "smallsat.report.figure",
+            "smallsat.drawing.figure",
         ),
         results=[path for path in STUDY_RESULTS["transfer"] if "observations" not in path]
         + [f"{TRANSFER}/as-published.parquet", f"{TRANSFER}/converged.parquet"],
@@ -279,7 +279,7 @@ rule transfer_beyond:
         + sources(
             "smallsat.transfer.comparison_plot",
             "smallsat.transfer.tables",
-            "smallsat.report.figure",
+            "smallsat.drawing.figure",
         ),
         results=[path for path in STUDY_RESULTS["transfer"] if "observations" not in path],
         more=[f"{TRANSFER}/multistart-starts.csv", f"{TRANSFER}/collocation.csv"],

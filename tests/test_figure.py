@@ -5,8 +5,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from smallsat.report.figure import FORMATS, save_figure
-from smallsat.report.style import apply_style
+from smallsat.drawing.figure import FORMATS, save_figure
+from smallsat.drawing.style import apply_style
 from smallsat.results import read_table
 
 

@@ -9,15 +9,14 @@ import pandas as pd
 
 from smallsat.errors import InputError
 
-# More than any printed value has, and short enough to read and to diff.
-CSV_DIGITS = 12
+# Enough that a value judged against an exact fraction such as 1/6 is not rounded away from it.
+CSV_DIGITS = 15
 
 
-def write_table(table: pd.DataFrame, path: Path, digits: int = CSV_DIGITS) -> None:
+def write_table(table: pd.DataFrame, path: Path) -> None:
     """Write a tidy table as Parquet or CSV (by suffix), atomically.
 
-    A killed run leaves either the old file or the new one, never half of one. ``digits`` is the
-    number of significant ones in a CSV file; values to be judged against exact fractions need 15.
+    A killed run leaves either the old file or the new one, never half of one.
     """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -25,7 +24,7 @@ def write_table(table: pd.DataFrame, path: Path, digits: int = CSV_DIGITS) -> No
     if path.suffix == ".parquet":
         table.to_parquet(partial, index=False, compression="zstd")
     else:
-        table.to_csv(partial, index=False, float_format=f"%.{digits}g", lineterminator="\n")
+        table.to_csv(partial, index=False, float_format=f"%.{CSV_DIGITS}g", lineterminator="\n")
     partial.replace(path)
 
 

@@ -10,14 +10,14 @@ import pandas as pd
 import pytest
 import yaml
 
+from smallsat.drawing.figure import save_figure
+from smallsat.drawing.style import apply_style
 from smallsat.errors import InputError
 from smallsat.evidence.claims import CLAIM_COLUMNS
 from smallsat.evidence.errata import ERRATA_COLUMNS
 from smallsat.evidence.ledger import ARTEFACT_COLUMNS, VALUE_COLUMNS, read_ledger
 from smallsat.evidence.verdicts import VERDICT_COLUMNS, pending
 from smallsat.report.content import collect
-from smallsat.report.figure import save_figure
-from smallsat.report.style import apply_style
 from smallsat.report.typesetting import compile_report
 from smallsat.results import write_json, write_table
 

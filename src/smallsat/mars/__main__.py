@@ -48,7 +48,7 @@ def _simulate(section: dict, folder: Path) -> None:
 
     # All digits, for results that are printed as exact fractions.
     observed = observations_table(observations(section, given, runs))
-    write_table(observed, folder / "observations.csv", digits=15)
+    write_table(observed, folder / "observations.csv")
 
 
 def _check(section: dict, folder: Path) -> None:

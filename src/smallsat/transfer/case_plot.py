@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from smallsat.report.style import BLACK, CYCLE
+from smallsat.drawing.style import BLACK, CYCLE
 from smallsat.transfer.problem import STATES
 
 # Half of the report's text width: states and control stand side by side.

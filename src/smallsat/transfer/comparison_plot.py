@@ -6,7 +6,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from smallsat.report.style import BLACK, BLUE, CYCLE, GREEN, ORANGE, VERMILION, WIDTH
+from smallsat.drawing.style import BLACK, BLUE, CYCLE, GREEN, ORANGE, VERMILION, WIDTH
 from smallsat.transfer.printed import printed_cases
 
 

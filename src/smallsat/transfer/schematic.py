@@ -6,7 +6,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from smallsat.report.style import BLACK, BLUE, GREEN, ORANGE, VERMILION
+from smallsat.drawing.style import BLACK, BLUE, GREEN, ORANGE, VERMILION
 from smallsat.transfer.problem import TransferProblem
 
 SIZE = (3.3, 3.0)

@@ -21,7 +21,7 @@ def save_figure(figure: Figure, stem: Path | str, data: pd.DataFrame) -> None:
     Parameters
     ----------
     figure
-        The figure, made under `smallsat.report.style.apply_style`.
+        The figure, made under `smallsat.drawing.style.apply_style`.
     stem
         Path without suffix, such as ``figures/transfer/fig-05``.
     data
