@@ -1,8 +1,8 @@
 """How fast the transfer cases are solved, beside a plain SciPy port of the document's listings.
 
 The port integrates each interval with an adaptive method at the document's tolerance, lets SLSQP
-take finite differences, and starts where the document starts. Both run in this process, one after the
-other, so the ratios hold on any machine.
+take finite differences, and starts where the document starts. Both run in this process, one after
+the other, so the ratios hold on any machine.
 """
 
 import time
