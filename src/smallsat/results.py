@@ -9,8 +9,9 @@ import pandas as pd
 
 from smallsat.errors import InputError
 
-# Enough that a value judged against an exact fraction such as 1/6 is not rounded away from it.
-CSV_DIGITS = 15
+# Finer than any difference that is spoken of, and coarser than the last bits, which may differ
+# from build to build where a library lays out its memory differently.
+CSV_DIGITS = 12
 
 
 def write_table(table: pd.DataFrame, path: Path) -> None:

@@ -43,8 +43,9 @@ class Printed:
         """Whether a computed number is equal to the printed digits."""
         if self.bound:
             return abs(computed) < self.value
-        # The guard is for binary rounding only: 0.5 units must count as equal.
-        guard = 1e-12 * max(abs(self.value), abs(computed), 1e-300)
+        # The guard is for rounding only, binary and to the digits of a results file: half a unit
+        # must count as equal, and so must 1/6.
+        guard = 1e-11 * max(abs(self.value), abs(computed), 1e-300)
         return abs(computed - self.value) <= self.half_unit + guard
 
     def truncates(self, computed: float) -> bool:

@@ -13,6 +13,7 @@ from scipy.optimize import least_squares
 
 from smallsat.optimal_control.runge_kutta import integrate, step_function
 from smallsat.transfer.problem import COSTATES, STATES, TransferProblem
+from smallsat.transfer.trajectory import error_magnitude
 
 
 @dataclass(frozen=True)
@@ -150,7 +151,7 @@ def condition_error(problem: TransferProblem, final: np.ndarray) -> float:
         costate[4] - 1.0,
         problem.hamiltonian(state, costate),
     ]
-    return float(np.max(np.abs(errors)))
+    return error_magnitude(errors)
 
 
 def primer_angle(costate: np.ndarray) -> np.ndarray:

@@ -81,4 +81,9 @@ def fly(problem: TransferProblem, path: Path, samples: int = 0) -> tuple[np.ndar
 
 def boundary_error(problem: TransferProblem, state: np.ndarray) -> float:
     """Largest error of the conditions on r, v_r and v_theta at the end of a flight."""
-    return float(np.max(np.abs(problem.terminal_error(state))))
+    return error_magnitude(problem.terminal_error(state))
+
+
+def error_magnitude(errors: Sequence[float] | np.ndarray) -> float:
+    """Largest of some errors, to two digits: more would be noise of the last bits."""
+    return float(f"{np.max(np.abs(errors)):.1e}")
