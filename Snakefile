@@ -60,6 +60,8 @@ rule all:
         FIGURES,
     log:
         "logs/all.log",
+    message:
+        "Everything is there; the report lies in report/build"
 
 
 include: "rules/unknown.smk"

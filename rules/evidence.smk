@@ -31,6 +31,8 @@ for study in STUDIES:
             study=study,
             published=lambda w, input: os.path.dirname(input.ledger),
             config=as_json({key: value for key, value in config.items() if key != "run"}),
+        message:
+            f"{study}: prove the errata, judge values and claims"
         shell:
             "python -m smallsat.evidence study {params.study} --config {params.config:q}"
             " --published {params.published} --results data/results/{params.study} > {log} 2>&1"
@@ -60,6 +62,8 @@ for study in STUDIES:
                     "verdicts_path": f"data/results/{study}/verdicts.csv",
                 }
             ),
+        message:
+            f"{study}: write the tables, printed beside computed"
         shell:
             NOTEBOOK
 
@@ -77,6 +81,8 @@ rule merge_verdicts:
         "logs/merge_verdicts.benchmark.tsv"
     params:
         published=lambda w, input: os.path.dirname(input.ledger),
+    message:
+        "Put all verdicts into one table"
     shell:
         "python -m smallsat.evidence merge --published {params.published} --output {output}"
         " {input.verdicts} > {log} 2>&1"
@@ -96,6 +102,8 @@ rule accept_verdicts:
     params:
         published=lambda w, input: os.path.dirname(input.ledger),
         what_if="" if RUN_FOLDER == "." else "--what-if",
+    message:
+        "Check that no verdict is wrong"
     shell:
         "python -m smallsat.evidence summary {input.verdicts} --published {params.published}"
         " {params.what_if} > {log} 2>&1"
@@ -106,6 +114,8 @@ rule verdicts:
         "data/results/verdicts.csv",
     log:
         "logs/verdicts.log",
+    message:
+        "Verdicts: data/results/verdicts.csv"
 
 
 # Has no output: it prints the summary every time it is asked for.
@@ -118,6 +128,8 @@ rule check:
     params:
         published=lambda w, input: os.path.dirname(input.ledger),
         what_if="" if RUN_FOLDER == "." else "--what-if",
+    message:
+        "Count the verdicts"
     shell:
         "python -m smallsat.evidence summary {input.verdicts} --published {params.published}"
         " {params.what_if} | tee {log}; exit ${{PIPESTATUS[0]}}"

@@ -50,6 +50,8 @@ rule mars_simulation:
     params:
         config=as_json(MARS_SECTION),
         folder=lambda _, output: os.path.dirname(output[0]),
+    message:
+        "mars: fly every pointing mode, the mission and the day"
     shell:
         "python -m smallsat.mars simulate --config {params.config:q}"
         " --output-folder {params.folder} > {log} 2>&1"
@@ -67,6 +69,8 @@ rule mars_independent_check:
     params:
         config=as_json(MARS_SECTION),
         folder=lambda _, output: os.path.dirname(output[0]),
+    message:
+        "mars: integrate everything again with quaternions"
     shell:
         "python -m smallsat.mars check --config {params.config:q}"
         " --output-folder {params.folder} > {log} 2>&1"
@@ -94,6 +98,8 @@ for name, figures in MARS_SCHEMATICS.items():
             parameters=as_json(
                 {"section": MARS_SECTION, "folder": "figures/mars", "figures": figures}
             ),
+        message:
+            f"mars: draw {name}"
         shell:
             NOTEBOOK
 
@@ -128,6 +134,8 @@ for name, figures in MARS_RESPONSES.items():
                     "figures": figures,
                 }
             ),
+        message:
+            f"mars: draw {name}"
         shell:
             NOTEBOOK
 
@@ -163,6 +171,8 @@ for name, figures in MARS_SCENES.items():
                     "figures": figures,
                 }
             ),
+        message:
+            f"mars: draw {name}"
         shell:
             NOTEBOOK
 
@@ -194,6 +204,8 @@ rule mars_day_modes:
                 "figure_path": "figures/mars/day-modes",
             }
         ),
+    message:
+        "mars: draw the modes of a day"
     shell:
         NOTEBOOK
 
@@ -232,6 +244,8 @@ for run, (film, trajectory, step) in MARS_FILMS.items():
                     "film": f"figures/mars/{film}.mp4",
                 }
             ),
+        message:
+            f"mars: film the {run}"
         shell:
             NOTEBOOK
 
@@ -246,3 +260,5 @@ rule mars:
         f"{MARS}/claims.csv",
     log:
         "logs/mars/mars.log",
+    message:
+        "mars: all tables, figures and verdicts are there"

@@ -49,6 +49,8 @@ rule report_content:
     params:
         project=lambda _, input: Path(input.documents).parent.parent,
         config=as_json(config),
+    message:
+        "Collect the content of the report"
     shell:
         "python -m smallsat.report content --project {params.project} --config {params.config:q}"
         " --output {output} > {log} 2>&1"
@@ -76,6 +78,8 @@ rule report:
         "logs/report/report.benchmark.tsv"
     params:
         project=lambda _, input: Path(input.template).parent.parent,
+    message:
+        "Typeset the report: report/build/report.pdf and report.html"
     shell:
         "(python -m smallsat.report compile {input.content} --project {params.project}"
         " --output {output.pdf}"
@@ -88,3 +92,5 @@ rule animations:
         ANIMATIONS,
     log:
         "logs/animations.log",
+    message:
+        "All films are there"

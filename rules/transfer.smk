@@ -48,6 +48,8 @@ for experiment in ("indirect", "converged", "continuous"):
         params:
             experiment=experiment,
             config=TRANSFER_CONFIG,
+        message:
+            f"transfer: solve the {experiment} cases"
         shell:
             "python -m smallsat.transfer.solve {params.experiment} --config {params.config:q}"
             f" --results {TRANSFER} > {{log}} 2>&1"
@@ -65,6 +67,8 @@ rule transfer_multistart:
         "logs/transfer/multistart.benchmark.tsv"
     params:
         config=TRANSFER_CONFIG,
+    message:
+        "transfer: search the best single polynomials from many starts"
     shell:
         "python -m smallsat.transfer.solve multistart --config {params.config:q}"
         f" --results {TRANSFER} > {{log}} 2>&1"
@@ -89,6 +93,8 @@ for intervals in TRANSFER_SHARDS:
         params:
             intervals=intervals,
             config=TRANSFER_CONFIG,
+        message:
+            f"transfer: solve as published, K = {intervals}"
         shell:
             "python -m smallsat.transfer.solve as-published --config {params.config:q}"
             " --intervals {params.intervals}"
@@ -109,6 +115,8 @@ rule transfer_gather:
         "logs/transfer/gather.benchmark.tsv"
     params:
         intervals=as_json(TRANSFER_SHARDS),
+    message:
+        "transfer: gather the as-published cases, compare with Table 4"
     shell:
         "python -m smallsat.transfer.observe gather --intervals {params.intervals:q}"
         f" --results {TRANSFER} > {{log}} 2>&1"
@@ -126,6 +134,8 @@ rule transfer_collocation:
         "logs/transfer/collocation.benchmark.tsv"
     params:
         config=TRANSFER_CONFIG,
+    message:
+        "transfer: solve by collocation"
     shell:
         "python -m smallsat.transfer.solve collocation --config {params.config:q}"
         f" --results {TRANSFER} > {{log}} 2>&1"
@@ -148,6 +158,8 @@ rule transfer_observations:
         "logs/transfer/observations.benchmark.tsv"
     params:
         published=lambda w, input: os.path.dirname(input.ledger),
+    message:
+        "transfer: observe the published values"
     shell:
         "python -m smallsat.transfer.observe values --published {params.published}"
         f" --results {TRANSFER} > {{log}} 2>&1"
@@ -214,6 +226,8 @@ for place, (method, degree, intervals) in enumerate(TRANSFER_FIGURES):
                     "control_stem": stems[1],
                 }
             ),
+        message:
+            f"transfer: draw states and control of {case}"
         shell:
             NOTEBOOK
 
@@ -238,6 +252,8 @@ rule transfer_schematics:
                 "stems": [f"figures/transfer/fig-{n:02d}" for n in range(1, 5)],
             }
         ),
+    message:
+        "transfer: draw the schematics"
     shell:
         NOTEBOOK
 
@@ -263,6 +279,8 @@ rule transfer_comparisons:
         "logs/transfer/comparisons.benchmark.tsv"
     params:
         parameters=as_json({"results": TRANSFER}),
+    message:
+        "transfer: draw the comparisons"
     shell:
         NOTEBOOK
 
@@ -294,6 +312,8 @@ rule transfer_beyond:
         "logs/transfer/beyond.benchmark.tsv"
     params:
         parameters=as_json({"results": TRANSFER}),
+    message:
+        "transfer: draw what goes beyond the document"
     shell:
         NOTEBOOK
 
@@ -307,3 +327,5 @@ rule transfer:
         f"{TRANSFER}/timings.csv",
     log:
         "logs/transfer/all.log",
+    message:
+        "transfer: all tables, figures and verdicts are there"

@@ -15,5 +15,7 @@ rule unknown_target:
         target="(?!(?:{})$)(?:[A-Za-z_-]+|figures/.+|data/results/.+|report/build/.+)".format(
             "|".join(re.escape(path) for path in sorted(KNOWN_FILES))
         ),
+    message:
+        "No such target"
     shell:
         "false > {log}"
