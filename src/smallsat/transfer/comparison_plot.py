@@ -127,7 +127,7 @@ def mass_above_printed(finals: pd.DataFrame) -> Figure:
     for place in position[above]:
         axes.annotate(
             "printed above optimum",
-            (place, 0.02),
+            (place - 0.5, 0.02),
             xycoords=axes.get_xaxis_transform(),
             ha="center",
             va="bottom",
