@@ -30,8 +30,8 @@ def mode_figure(intervals: pd.DataFrame, shares: pd.DataFrame) -> Figure:
         share.barh(0, percent, left=left, color=COLOURS[mode])
         share.annotate(
             f"{LABELS[mode]} {percent:.1f} %",
-            (left, 0.55),
-            ha="left",
+            (left + percent / 2, 0.55),
+            ha="center",
             va="bottom",
             fontsize=8,
         )
