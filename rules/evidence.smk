@@ -30,7 +30,7 @@ for study in STUDIES:
         params:
             study=study,
             published=lambda w, input: os.path.dirname(input.ledger),
-            config=as_json({key: value for key, value in config.items() if key != "run"}),
+            config=as_json({study: config[study]}),
         message:
             f"{study}: prove the errata, judge values and claims"
         shell:

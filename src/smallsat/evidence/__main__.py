@@ -23,7 +23,12 @@ def main() -> None:
 
     study = commands.add_parser("study", help="prove errata, judge values and claims of one study")
     study.add_argument("document", choices=DOCUMENTS)
-    study.add_argument("--config", required=True, type=json.loads, help="whole configuration, JSON")
+    study.add_argument(
+        "--config",
+        required=True,
+        type=json.loads,
+        help="configuration with the section of the study, JSON",
+    )
     study.add_argument("--published", required=True, type=Path, help="folder of published values")
     study.add_argument("--results", required=True, type=Path, help="folder of the study's results")
 

@@ -56,7 +56,7 @@ def prove_errata(
     entries
         Entries of ``errata.yaml``.
     config
-        The whole configuration.
+        The configuration, at least its section for this study.
     results
         Folder with the results of the study, which proofs may read.
     path

@@ -66,7 +66,7 @@ def judge(
     proofs
         What the proofs of the errata found (`smallsat.evidence.errata.prove_errata`).
     config
-        The whole configuration, which the bindings look into.
+        The configuration, at least its section for this study, which the bindings look into.
 
     Returns
     -------

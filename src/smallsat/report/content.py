@@ -53,6 +53,14 @@ def collect(project: Path, run: Path, config: Config, default: Config) -> Conten
     artefacts = read_artefacts(published / "artefacts.csv")
     counts = verdict_counts(verdicts, kinds)
 
+    described_run = _run(project, run, config, default)
+    # A what-if run may leave out cases of a document, and with them their figures.
+    shown = [
+        row
+        for row in artefacts
+        if row["kind"] != "figure" or not described_run["what_if"] or (run / row["target"]).exists()
+    ]
+
     documents = []
     for name, described in read_yaml(project / "report/documents.yaml").items():
         own = verdicts[verdicts["document"] == name]
@@ -68,11 +76,11 @@ def collect(project: Path, run: Path, config: Config, default: Config) -> Conten
         }
         if document["built"]:
             chapter = project / f"report/chapters/{name}.typ"
-            document |= _study(own, artefacts, results / name, published / name)
+            document |= _study(own, shown, results / name, published / name)
             document["chapter"] = f"/report/chapters/{name}.typ" if chapter.exists() else None
         documents.append(document)
     return {
-        "run": _run(project, run, config, default),
+        "run": described_run,
         "verdicts": list(counts.columns),
         "documents": documents,
         "values": {str(row["id"]): value_texts(row) for row in records(verdicts)},
