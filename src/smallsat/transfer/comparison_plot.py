@@ -150,9 +150,9 @@ def mass_above_printed(finals: pd.DataFrame) -> Figure:
 
 def early_stopping_figure(table: pd.DataFrame) -> Figure:
     """Final time of as-published runs stopped at looser tolerances, beside the printed ones."""
-    figure, panels = plt.subplots(
-        1, table["intervals"].nunique(), figsize=(WIDTH, 3.0), sharey=True
-    )
+    count = table["intervals"].nunique()
+    figure, grid = plt.subplots(1, count, figsize=(WIDTH, 3.0), sharey=True, squeeze=False)
+    panels = grid[0]
     band = table["printed"].min(), table["printed"].max()
     for axes, (intervals, rows) in zip(panels, table.groupby("intervals"), strict=True):
         axes.axhspan(*band, color="#dddddd", lw=0)
