@@ -43,7 +43,7 @@ benchmark: $(VENV)/installed
 
 # Needs uv (pip install uv); only for changing dependencies.
 lock:
-	uv pip compile --generate-hashes --no-emit-index-url --no-header --python-version 3.11 requirements.in -o requirements.lock
+	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.in -o requirements.lock
 
 clean:
 	rm -rf data/results figures report/build runs logs .snakemake
