@@ -49,11 +49,12 @@ rule report_content:
     params:
         project=lambda _, input: Path(input.documents).parent.parent,
         config=as_json(config),
+        left_out=as_json(LEFT_OUT),
     message:
         "Collect the content of the report"
     shell:
         "python -m smallsat.report content --project {params.project} --config {params.config:q}"
-        " --output {output} > {log} 2>&1"
+        " --left-out {params.left_out:q} --output {output} > {log} 2>&1"
 
 
 rule report:

@@ -20,6 +20,7 @@ def main() -> None:
     content.add_argument("--config", required=True, type=json.loads, help="whole configuration")
     content.add_argument("--project", required=True, type=Path, help="folder of the project")
     content.add_argument("--run", default=Path(), type=Path, help="folder of the run")
+    content.add_argument("--left-out", default=[], type=json.loads, help="targets not made, JSON")
     content.add_argument("--output", required=True, type=Path)
 
     compiling = commands.add_parser("compile", help="typeset the PDF and the page")
@@ -30,7 +31,9 @@ def main() -> None:
     arguments = parser.parse_args()
     if arguments.command == "content":
         default = read_yaml(arguments.project / "config/default.yaml")
-        collected = collect(arguments.project, arguments.run, arguments.config, default)
+        collected = collect(
+            arguments.project, arguments.run, arguments.config, default, arguments.left_out
+        )
         write_json(collected, arguments.output)
     else:
         compile_report(arguments.content, arguments.project, arguments.output)

@@ -3,7 +3,7 @@
 import hashlib
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +30,9 @@ from smallsat.results import read_table
 EXTRAS_DIGITS = 7
 
 
-def collect(project: Path, run: Path, config: Config, default: Config) -> Content:
+def collect(
+    project: Path, run: Path, config: Config, default: Config, left_out: Collection[str] = ()
+) -> Content:
     """The content of the report of one run.
 
     Parameters
@@ -43,6 +45,8 @@ def collect(project: Path, run: Path, config: Config, default: Config) -> Conten
         The configuration of the run.
     default
         The documents' own values.
+    left_out
+        Targets of artefacts whose cases a what-if run leaves out.
     """
     published, results = project / "data/published", run / "data/results"
     ledger = read_ledger(published / "values.csv")
@@ -53,13 +57,7 @@ def collect(project: Path, run: Path, config: Config, default: Config) -> Conten
     artefacts = read_artefacts(published / "artefacts.csv")
     counts = verdict_counts(verdicts, kinds)
 
-    described_run = _run(project, run, config, default)
-    # A what-if run may leave out cases of a document, and with them their figures.
-    shown = [
-        row
-        for row in artefacts
-        if row["kind"] != "figure" or not described_run["what_if"] or (run / row["target"]).exists()
-    ]
+    shown = [row for row in artefacts if row["target"] not in left_out]
 
     documents = []
     for name, described in read_yaml(project / "report/documents.yaml").items():
@@ -80,7 +78,7 @@ def collect(project: Path, run: Path, config: Config, default: Config) -> Conten
             document["chapter"] = f"/report/chapters/{name}.typ" if chapter.exists() else None
         documents.append(document)
     return {
-        "run": described_run,
+        "run": _run(project, run, config, default),
         "verdicts": list(counts.columns),
         "documents": documents,
         "values": {str(row["id"]): value_texts(row) for row in records(verdicts)},
