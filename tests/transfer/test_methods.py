@@ -5,7 +5,7 @@ import pytest
 
 from smallsat.optimal_control.nonlinear_program import IpoptSolver
 from smallsat.transfer import beyond
-from smallsat.transfer.direct import Case, fitted_guess, path_of, shooting_program
+from smallsat.transfer.direct import Case, control_history, fitted_guess, shooting_program
 from smallsat.transfer.indirect import condition_error, fly_extremal, solve_extremal
 from smallsat.transfer.problem import TransferProblem
 from smallsat.transfer.trajectory import boundary_error, fly
@@ -63,7 +63,7 @@ def test_direct_solutions_nest_and_stay_above_the_extremal(problem, extremal):
     for degree in (2, 3, 4):
         case = Case(degree, 4, "local")
         solution = _solve(problem, case, extremal)
-        final, _ = fly(problem, path_of(case, solution.variables))
+        final, _ = fly(problem, control_history(case, solution.variables))
         assert solution.converged
         assert boundary_error(problem, final) < 1e-9
         assert extremal.final_time - 1e-9 < solution.objective <= previous + 1e-9
@@ -75,7 +75,7 @@ def test_continuity_holds_and_costs(problem, extremal):
     case = Case(3, 2, "local")
     free = _solve(problem, case, extremal)
     continuous = _solve(problem, case, extremal, continuous=True)
-    path = path_of(case, continuous.variables)
+    path = control_history(case, continuous.variables)
     middle = path.times[1]
     assert path.controls[0](middle) == pytest.approx(path.controls[1](middle), abs=1e-9)
     assert continuous.objective >= free.objective - 1e-9

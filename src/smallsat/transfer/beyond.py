@@ -19,7 +19,7 @@ from smallsat.optimal_control.collocation import (
 from smallsat.optimal_control.nonlinear_program import IpoptSolver
 from smallsat.transfer.indirect import Extremal, condition_error, fly_extremal
 from smallsat.transfer.problem import STATES, TransferProblem
-from smallsat.transfer.trajectory import Path, boundary_error, fly
+from smallsat.transfer.trajectory import ControlHistory, boundary_error, fly
 
 MESHES = (
     Collocation(20, 3, "radau"),
@@ -70,7 +70,7 @@ def direct_collocation(problem: TransferProblem) -> pd.DataFrame:
         )
         solution = IpoptSolver(program).solve(guess)
         controls = collocation_control(mesh, len(STATES), solution.variables)
-        final, _ = fly(problem, _collocated_path(mesh, controls, solution.objective))
+        final, _ = fly(problem, _collocated_history(mesh, controls, solution.objective))
         rows.append(
             {
                 "method": f"direct collocation, {mesh.points}",
@@ -132,7 +132,9 @@ def indirect_collocation(problem: TransferProblem, costate_guess: np.ndarray) ->
     return pd.DataFrame([row])
 
 
-def _collocated_path(mesh: Collocation, controls: np.ndarray, final_time: float) -> Path:
+def _collocated_history(
+    mesh: Collocation, controls: np.ndarray, final_time: float
+) -> ControlHistory:
     times = np.linspace(0.0, final_time, mesh.intervals + 1)
     interpolators = []
     for k, values in enumerate(controls):
@@ -142,4 +144,4 @@ def _collocated_path(mesh: Collocation, controls: np.ndarray, final_time: float)
                 (t - times[k]) / (times[k + 1] - times[k])
             )
         )
-    return Path(times, interpolators)
+    return ControlHistory(times, interpolators)

@@ -10,7 +10,7 @@ import pandas as pd
 from smallsat.optimal_control.nonlinear_program import NonlinearProgram
 from smallsat.optimal_control.runge_kutta import integrate, step_function
 from smallsat.transfer.problem import STATES, TransferProblem
-from smallsat.transfer.trajectory import Path
+from smallsat.transfer.trajectory import ControlHistory
 
 # The document's time variable tau over the whole flight (section 3).
 TAU_SPAN = (-1.0, 1.0)
@@ -127,7 +127,7 @@ def published_guess(case: Case, guess: dict[str, Any]) -> np.ndarray:
     )
 
 
-def path_of(case: Case, z: np.ndarray) -> Path:
+def control_history(case: Case, z: np.ndarray) -> ControlHistory:
     """Control and times of a solution (size,)."""
     _, coefficients, final_time = case.split(z)
     rows = np.reshape(coefficients, (case.intervals, case.degree + 1))
@@ -141,7 +141,7 @@ def path_of(case: Case, z: np.ndarray) -> Path:
             return np.polyval(row, s)
 
         controls.append(control)
-    return Path(times, controls)
+    return ControlHistory(times, controls)
 
 
 def fitted_guess(case: Case, extremal: pd.DataFrame) -> np.ndarray:

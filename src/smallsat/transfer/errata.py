@@ -3,10 +3,12 @@
 from dataclasses import replace
 from pathlib import Path
 
+import casadi as ca
 import numpy as np
 
 from smallsat.config import Config
 from smallsat.evidence.errata import Proof
+from smallsat.results import read_table
 from smallsat.transfer.indirect import solve_extremal
 from smallsat.transfer.observations import degree_spread
 from smallsat.transfer.printed import mass_from_time, printed_cases, printed_value
@@ -247,8 +249,6 @@ def optimal_choice(config: Config, results: Path) -> Proof:
 
 def lagrange_gravity(config: Config, results: Path) -> Proof:
     """The gravity term of Lagrange's equation, by differentiating the printed Lagrangian."""
-    import casadi as ca
-
     r, rate, mu = ca.SX.sym("r"), ca.SX.sym("rate"), config["transfer"]["problem"]["mu"]
     lagrangian = 0.5 * rate**2 * r**2 + mu / r
     derivative = ca.Function("d", [r, rate], [ca.gradient(lagrangian, r)])
@@ -288,8 +288,6 @@ def generalised_force(config: Config, results: Path) -> Proof:
 
 def hamiltonian_exhaust(config: Config, results: Path) -> Proof:
     """The Hamiltonian vanishes along the extremal with v_e in the mass term, not with v_theta."""
-    from smallsat.results import read_table
-
     flown = read_table(results / "indirect.parquet")
     flown = flown[flown["intervals"] == 1]
     problem = TransferProblem.from_config(config["transfer"])

@@ -13,8 +13,8 @@ import pandas as pd
 from smallsat.optimal_control.nonlinear_program import IpoptSolver, SlsqpSolver, Solution
 from smallsat.transfer.direct import (
     Case,
+    control_history,
     fitted_guess,
-    path_of,
     published_guess,
     shooting_program,
 )
@@ -91,7 +91,7 @@ def as_published(config: Config, intervals: int) -> Tables:
             solution = solver.solve(guess, tolerance)
             row = _direct_row("as published", case, solution) | {"tolerance": tolerance}
             if tolerance == strict:
-                final, table = fly(problem, path_of(case, solution.variables), _share(case))
+                final, table = fly(problem, control_history(case, solution.variables), _share(case))
                 row |= _flown(problem, final)
                 frames.append(_labelled(table, row))
             rows.append(row)
@@ -156,7 +156,7 @@ def multistart(config: Config) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame
             good = solution.converged and solution.violation < 1e-8
             # A control too wild for the fixed steps shows in a flight with an adaptive method.
             if good:
-                final, _ = fly(problem, path_of(case, solution.variables))
+                final, _ = fly(problem, control_history(case, solution.variables))
                 good = boundary_error(problem, final) < 1e-5
             starts.append(
                 {
@@ -209,7 +209,7 @@ def _solve_near(
 def _collect(problem: TransferProblem, solved: Iterator[tuple[Row, Case, Solution]]) -> Tables:
     rows, frames = [], []
     for row, case, solution in solved:
-        final, table = fly(problem, path_of(case, solution.variables), _share(case))
+        final, table = fly(problem, control_history(case, solution.variables), _share(case))
         row |= _flown(problem, final)
         rows.append(row)
         frames.append(_labelled(table, row))

@@ -1,5 +1,6 @@
 """The document's own numbers, as its tables and prose print them, for errata and claims."""
 
+from functools import cache
 from pathlib import Path
 
 import pandas as pd
@@ -12,13 +13,18 @@ from smallsat.transfer.tables import parse_case
 LEDGER = Path(__file__).parents[3] / "data/published/values.csv"
 
 
+@cache
+def _ledger() -> list[dict[str, str]]:
+    return read_ledger(LEDGER)
+
+
 def printed_cases(locator: str) -> pd.DataFrame:
     """Printed numbers of a table or section, one row a case, one column a quantity.
 
     The index is (method, degree, intervals).
     """
     rows = []
-    for row in read_ledger(LEDGER):
+    for row in _ledger():
         case = parse_case(row["case"])
         number = parse_printed(row["printed"])
         if row["document"] == "transfer" and row["locator"] == locator and case and number:
@@ -37,9 +43,7 @@ def printed_cases(locator: str) -> pd.DataFrame:
 
 def printed_value(identifier: str) -> float:
     """One printed number by its id."""
-    number = parse_printed(
-        next(row["printed"] for row in read_ledger(LEDGER) if row["id"] == identifier)
-    )
+    number = parse_printed(next(row["printed"] for row in _ledger() if row["id"] == identifier))
     assert number is not None, identifier
     return number.value
 

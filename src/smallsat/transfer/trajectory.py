@@ -14,7 +14,7 @@ Control = Callable[[np.ndarray], np.ndarray]
 
 
 @dataclass(frozen=True)
-class Path:
+class ControlHistory:
     """A control in consecutive intervals, flown from the initial orbit.
 
     Attributes
@@ -34,14 +34,16 @@ class Path:
         return float(self.times[-1])
 
 
-def fly(problem: TransferProblem, path: Path, samples: int = 0) -> tuple[np.ndarray, pd.DataFrame]:
-    """Integrate a path from the initial orbit with LSODA (variable-order Adams and BDF).
+def fly(
+    problem: TransferProblem, history: ControlHistory, samples: int = 0
+) -> tuple[np.ndarray, pd.DataFrame]:
+    """Fly a control history from the initial orbit with LSODA (variable-order Adams and BDF).
 
     Nothing is reset at the interval ends, so the errors of all intervals add up.
 
     Parameters
     ----------
-    problem, path
+    problem, history
         What is flown.
     samples
         Rows of the table in each interval; 0 for none.
@@ -55,8 +57,8 @@ def fly(problem: TransferProblem, path: Path, samples: int = 0) -> tuple[np.ndar
     """
     state = problem.initial_state
     frames = []
-    for segment, control in enumerate(path.controls):
-        start, end = path.times[segment], path.times[segment + 1]
+    for segment, control in enumerate(history.controls):
+        start, end = history.times[segment], history.times[segment + 1]
 
         def rate(t: float, x: np.ndarray, control: Control = control) -> list[float]:
             beta = control(np.asarray(t))
@@ -72,7 +74,7 @@ def fly(problem: TransferProblem, path: Path, samples: int = 0) -> tuple[np.ndar
         if samples and grid is not None:
             table = pd.DataFrame(solution.y.T, columns=list(STATES))
             table.insert(0, "t", grid)
-            table.insert(0, "tau", 2 * grid / path.final_time - 1)
+            table.insert(0, "tau", 2 * grid / history.final_time - 1)
             table.insert(0, "segment", segment)
             table["beta"] = control(grid)
             frames.append(table)
