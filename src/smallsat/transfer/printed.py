@@ -48,6 +48,40 @@ def printed_value(identifier: str) -> float:
     return number.value
 
 
+def contradictions(place: str, other: str, renamed: dict[str, str]) -> pd.DataFrame:
+    """Cases that two places of the document print differently, beyond rounding and cutting off.
+
+    Parameters
+    ----------
+    place, other
+        Locators, such as ``Section 3.4`` and ``Table 4``.
+    renamed
+        Quantities of ``place`` that ``other`` calls by another name.
+
+    Returns
+    -------
+    DataFrame
+        Columns case, quantity, and one for each place with the literal as printed.
+    """
+    literals = {
+        (row["locator"], row["case"], row["quantity"]): row["printed"]
+        for row in _ledger()
+        if row["document"] == "transfer"
+    }
+    rows = []
+    for (locator, case, quantity), literal in literals.items():
+        twin = literals.get((other, case, renamed.get(quantity, quantity)))
+        if locator != place or twin is None:
+            continue
+        here, there = parse_printed(literal), parse_printed(twin)
+        assert here and there, (literal, twin)
+        unit = 2 * max(here.half_unit, there.half_unit)
+        # The guard keeps a difference of exactly one unit from counting.
+        if abs(here.value - there.value) > 1.000001 * unit:
+            rows.append({"case": case, "quantity": quantity, place: literal, other: twin})
+    return pd.DataFrame(rows, columns=["case", "quantity", place, other])
+
+
 def mass_from_time(final_time: float, config: Config, exhaust_speed: float | None = None) -> float:
     """Final mass that a final time implies (equation 27), for any exhaust speed."""
     problem = config["transfer"]["problem"]
