@@ -300,11 +300,19 @@ rule transfer_beyond:
             "smallsat.drawing.figure",
         ),
         results=[path for path in STUDY_RESULTS["transfer"] if "observations" not in path],
-        more=[f"{TRANSFER}/multistart-starts.csv", f"{TRANSFER}/collocation.csv"],
+        starts=f"{TRANSFER}/multistart-starts.csv",
+        collocation=[f"{TRANSFER}/collocation.csv", f"{TRANSFER}/collocation-seconds.csv"],
+        seconds=[
+            f"{TRANSFER}/{name}-seconds.csv"
+            for name in ("indirect", "multistart", "converged", "continuous")
+        ],
         ledger=project("data/published/values.csv"),
     output:
         figure_files(*[path.removesuffix(".svg") for path in TRANSFER_EXTRAS]),
-        tables=[f"{TRANSFER}/tables/{name}.csv" for name in ("methods", "prose-against-table-4")],
+        tables=[
+            f"{TRANSFER}/tables/{name}.csv"
+            for name in ("methods", "methods-seconds", "prose-against-table-4")
+        ],
         notebook=f"{TRANSFER}/notebooks/beyond.ipynb",
     log:
         "logs/transfer/beyond.log",
