@@ -3,10 +3,6 @@
 PYTHON ?= python3.11
 VENV := .venv
 export PATH := $(CURDIR)/$(VENV)/bin:$(PATH)
-# One process a core; each process computes on one thread, so results do not depend on the machine's cores.
-export OMP_NUM_THREADS := 1
-export OPENBLAS_NUM_THREADS := 1
-export PYTHONHASHSEED := 0
 
 .DEFAULT_GOAL := all
 .PHONY: all test lint animations benchmark lock clean

@@ -25,6 +25,9 @@ container: "docker://python:3.11"
 
 ROOT = Path(workflow.basedir)
 
+# One process a core, each on one thread: results do not depend on the number of cores.
+os.environ |= {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+
 
 configfile: ROOT / "config/default.yaml"
 
