@@ -142,7 +142,7 @@ def least_infeasible(
     soft = Guidance(model, problem(model, given.initial, target, window, soft=True), mesh)
     results = [
         soft.solve(turning_guess(model, given.initial, target, duration, tilt), [1.0])
-        for tilt in tilts(numerics["starts"], numerics["seed"])[:5]
+        for tilt in tilts(numerics["starts"], numerics["seed"])[: 3 if mesh.segments == 1 else 5]
     ]
     converged = [r for r in results if r.solution.converged]
     return min(converged or results, key=lambda r: r.solution.objective), refused
