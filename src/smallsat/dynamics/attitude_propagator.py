@@ -1,4 +1,4 @@
-"""Closed-form state transition matrix of the quaternion, for rates at given times (slew, Eq. 18-26)."""
+"""Closed-form state transition of the quaternion, for rates at given times (slew, Eq. 18-26)."""
 
 from math import cos, sin, sqrt
 

@@ -1,4 +1,4 @@
-"""Torques of the environment: gravity gradient and drag on flat panels; an exponential atmosphere."""
+"""Torques of the environment: gravity gradient, drag on panels, an exponential atmosphere."""
 
 import numpy as np
 
@@ -34,7 +34,7 @@ ATMOSPHERE = np.array(
 
 @compiled
 def gravity_gradient(inertia, r, mu):
-    """Gravity-gradient torque, N m, for any inertia tensor (3, 3) and position r in body components.
+    """Gravity-gradient torque, N m, for any inertia tensor (3, 3) and position in body components.
 
     3 mu / r^5 times r x J r. With principal axes and r along the inertial first axis it is Eq. 27.
     """

@@ -17,7 +17,7 @@ class Gravity(NamedTuple):
 
 
 class Elements(NamedTuple):
-    """Keplerian elements, m and rad: semi-major axis, eccentricity, inclination, node, perigee, anomaly."""
+    """Keplerian elements, m and rad; ``perigee`` is its argument."""
 
     semi_major_axis: float
     eccentricity: float

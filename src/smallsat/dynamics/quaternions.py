@@ -12,7 +12,7 @@ from smallsat.dynamics.compiled import compiled
 
 @compiled
 def quaternion_rate(q, rate):
-    """Rate of change of a quaternion, shape (4,), for a body rate, shape (3,), rad/s (slew, Eq. 18)."""
+    """Rate of change (4,) of a quaternion for a body rate (3,), rad/s (slew, Eq. 18)."""
     x, y, z, w = q[0], q[1], q[2], q[3]
     a, b, c = rate[0], rate[1], rate[2]
     return (

@@ -101,7 +101,7 @@ class Plan:
     times
         Of the points (N,).
     states, controls, costates
-        At the points: (N, n), (N, m), (N, n). Costates are the derivatives of the cost by the state.
+        At the points: (N, n), (N, m), (N, n). A costate is the cost's derivative by the state.
     ends
         States at the ends of the segments, the start included: (segments + 1, n).
     final_time

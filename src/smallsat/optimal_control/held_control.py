@@ -52,9 +52,7 @@ class HeldControl:
         gaps = flow.map(pieces)(*arguments) - states
         objective = ca.sum2(cost.map(pieces)(*arguments))
         objective += problem.end_cost(states[:, -1], final, parameters)
-        constraints = ca.vertcat(
-            ca.vec(gaps), ca.vertcat(problem.terminal(states[:, -1], final))
-        )
+        constraints = ca.vertcat(ca.vec(gaps), ca.vertcat(problem.terminal(states[:, -1], final)))
         lower, upper = (
             np.r_[
                 np.tile(problem.state_bounds[i], pieces),

@@ -1,4 +1,4 @@
-"""Bang-bang controls by their switching times: the flow through the arcs is integrated, not collocated.
+"""Bang-bang controls by their switching times: the flow through the arcs is integrated.
 
 A second method for minimum-time problems, with no mesh: the arcs' durations are the only unknowns,
 and the end conditions hold to the error of the integrator.

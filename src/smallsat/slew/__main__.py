@@ -107,9 +107,7 @@ def _plans(section: Config, given: Parameters, folder: Path) -> None:
         replays.append(replay(given, section, torques, given.duration).assign(flight=name))
 
     # The same problem without the gravity gradient, which has a solution by hand.
-    free = type(model)(
-        given.inertia, given.torque, given.momentum, given.duration, True, None
-    )
+    free = type(model)(given.inertia, given.torque, given.momentum, given.duration, True, None)
     for kind, mesh in meshes.items():
         name = f"90 deg, no gravity gradient, {kind}"
         result, found = best_plan(free, given, "quarter", given.duration, mesh, section, 3)

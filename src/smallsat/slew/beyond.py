@@ -84,7 +84,7 @@ def degradation(section: Config, given: Parameters) -> pd.DataFrame:
                 arcs_of(best.plan.times, best.plan.controls, best.plan.final_time),
             )
             least, converged = arcs.final_time * model.unit, solution.converged
-        plan, starts = best_plan(
+        plan, _ = best_plan(
             model, given, "half", SLACK * least, half_mesh(section), section, SWEEP_STARTS
         )
         peaks = np.abs(plan.plan.states[:, 7:]).max() * model.momentum_unit / given.momentum

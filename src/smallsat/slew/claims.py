@@ -82,8 +82,8 @@ def printed_run_misses(config: Config, results: Path) -> Judgement:
     return judged(
         all(fits),
         f"J w of the printed rates is {', '.join(texts)}, printed values in brackets: equal within "
-        f"the digits. With so much rate left the bound allows {path:.0f} deg, so the printed run is "
-        f"possible as a run that ends short of its target, not as one that meets it",
+        f"the digits. With so much rate left the bound allows {path:.0f} deg, so the printed run "
+        f"is possible as a run that ends short of its target, not as one that meets it",
     )
 
 
@@ -122,9 +122,7 @@ def nutation_saves_torque(config: Config, results: Path) -> Judgement:
     given = parameters(config["slew"])
     plans = read_table(results / "plans.csv").set_index("plan")
     row = plans.loc["90 deg, no gravity gradient, segments"]
-    cost, peak = bang_coast_bang(
-        np.pi / 2.0, given.inertia[2, 2], given.torque, given.duration
-    )
+    cost, peak = bang_coast_bang(np.pi / 2.0, given.inertia[2, 2], given.torque, given.duration)
     share = 100.0 * peak / given.momentum
     return judged(
         bool(row["held_cost_N_m_s"] < 0.999 * cost),
@@ -165,7 +163,9 @@ def eigenaxis_stays_on_axis(config: Config, results: Path) -> Judgement:
     """Roll and pitch of all eigenaxis flights."""
     flights = read_table(results / "flights.parquet")
     largest = float(np.abs(angles_deg(flights.iloc[::10])[:, :2]).max())
-    return judged(largest < SMALL_DEG, f"roll and pitch stay below {largest:.1e} deg in all flights")
+    return judged(
+        largest < SMALL_DEG, f"roll and pitch stay below {largest:.1e} deg in all flights"
+    )
 
 
 def open_loop_follows(config: Config, results: Path) -> Judgement:
@@ -186,8 +186,8 @@ def half_turn_off_eigenaxis(config: Config, results: Path) -> Judgement:
     tilts = _tilts(results)
     return judged(
         bool((tilts > 10.0 * VISIBLE_DEG).all()),
-        f"the z axis tilts by {tilts.min():.0f} to {tilts.max():.0f} deg on our feasible plans, the "
-        f"more the shorter the time",
+        f"the z axis tilts by {tilts.min():.0f} to {tilts.max():.0f} deg on our feasible plans, "
+        f"the more the shorter the time",
     )
 
 
@@ -207,8 +207,8 @@ def closed_loop_of_the_axis(config: Config, results: Path) -> Judgement:
     area = 0.5 * float(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]))
     return judged(
         gap < INDEPENDENT_MISS and abs(area) > 0.01,
-        f"on our fastest feasible plan the path leaves the vertical and comes back (gap {gap:.0e}), "
-        f"a drop-shaped loop around an area of {abs(area):.2f}; a cardioid in that sense",
+        f"on our fastest feasible plan the path leaves the vertical and comes back (gap {gap:.0e}), a "
+        f"drop-shaped loop around an area of {abs(area):.2f}; a cardioid in that sense",
     )
 
 
@@ -260,7 +260,7 @@ def transition_matrix_keeps_length(config: Config, results: Path) -> Judgement:
     return judged(
         length < 1e-12,
         f"the length is off by at most {length:.0e} after 100 s; the attitude error is "
-        f"{rows[1.0]:g} deg with the printed step and falls by {ratio:.1f} when the step is halved: "
+        f"{rows[1.0]:g} deg with the printed step and falls by {ratio:.1f} when the step is halved, "
         f"second order, so the step matters and rounding does not",
     )
 

@@ -1,6 +1,6 @@
-"""Which proportional-derivative controllers give the printed values of the eigenaxis turns?
+"""Search for controllers that give the printed values of the eigenaxis turns.
 
-About one axis the turn is a double integrator with a torque limit. The search covers every stiffness
+About one axis the turn is a double integrator with a torque limit. The search covers stiffness
 and damping on a grid, three ways to feed the error back, and torques held for a while.
 """
 
@@ -35,26 +35,34 @@ PEAK = 2
 
 
 @compiled
-def axis_turn(target, stiffness, damping, law, hold, acceleration, duration, step):
-    """Final angle, rate and largest rate, rad and rad/s, of a turn about one axis from rest."""
-    angle = rate = peak = held = 0.0
-    steps = int(round(duration / step))
-    every = max(1, int(round(hold / step)))
+def axis_turn(
+    target, stiffness, damping, law, hold, acceleration, gradient, orbit_rate, duration, step
+):
+    """A turn about one axis from rest, the position vector in the plane of the turn.
+
+    ``gradient`` is the largest angular acceleration by the gravity gradient, rad/s^2. Returns the
+    final angle and rate, rad and rad/s, and the largest and final momentum given by the wheel, over
+    the moment of inertia, rad/s.
+    """
+    angle = rate = given = peak = held = 0.0
+    steps = round(duration / step)
+    every = max(1, round(hold / step))
     for k in range(steps):
         if hold == 0.0 or k % every == 0:
             held = _law(target - angle, rate, stiffness, damping, law, acceleration)
+        outer = -gradient * sin(2.0 * (angle - orbit_rate * k * step))
+        mean = held
         if hold == 0.0:
             # Heun's method; the law is continuous.
-            ahead = _law(
-                target - angle - step * rate, rate + step * held, stiffness, damping, law, acceleration
-            )
+            ahead_angle = angle + step * rate
+            ahead_rate = rate + step * (held + outer)
+            ahead = _law(target - ahead_angle, ahead_rate, stiffness, damping, law, acceleration)
             mean = 0.5 * (held + ahead)
-        else:
-            mean = held
-        angle += step * rate + 0.5 * step * step * held
-        rate += step * mean
-        peak = max(peak, abs(rate))
-    return angle, rate, peak
+        angle += step * rate + 0.5 * step * step * (mean + outer)
+        rate += step * (mean + outer)
+        given += step * mean
+        peak = max(peak, abs(given))
+    return angle, rate, peak, given
 
 
 @compiled
@@ -68,15 +76,28 @@ def _law(error, rate, stiffness, damping, law, acceleration):
     return min(acceleration, max(-acceleration, stiffness * fed - damping * rate))
 
 
-def values(given: Parameters, case: str, wn: float, zeta: float, law: int, hold: float) -> np.ndarray:
+def values(
+    given: Parameters, case: str, wn: float, zeta: float, law: int, hold: float
+) -> np.ndarray:
     """Yaw (deg), rate (deg/s), peak and final momentum (%) of a controller, shape (4,)."""
-    moment = given.inertia[2, 2]
+    first, second, moment = np.diag(given.inertia)
     target = np.pi / 2.0 if case == "quarter" else np.pi
-    angle, rate, peak = axis_turn(
-        target, wn * wn, 2.0 * zeta * wn, law, hold, given.torque / moment, given.duration, STEP
+    r, v = given.state
+    radius = float(np.linalg.norm(r))
+    angle, rate, peak, final = axis_turn(
+        target,
+        wn * wn,
+        2.0 * zeta * wn,
+        law,
+        hold,
+        given.torque / moment,
+        1.5 * given.gravity.mu / radius**3 * (second - first) / moment,
+        float(np.linalg.norm(v)) / radius,
+        given.duration,
+        STEP,
     )
     share = 100.0 * moment / given.momentum
-    return np.array([np.degrees(angle), np.degrees(rate), share * peak, share * rate])
+    return np.array([np.degrees(angle), np.degrees(rate), share * peak, share * final])
 
 
 def misses(given: Parameters, wn: float, zeta: float, law: int, hold: float) -> np.ndarray:

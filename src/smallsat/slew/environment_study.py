@@ -58,7 +58,7 @@ def torque_table(section: Config, given: Parameters) -> pd.DataFrame:
 
 
 def crossover_km(table: pd.DataFrame, offset_mm: float, factor: float = 1.0) -> float:
-    """Altitude above which the gravity gradient is the larger; the lowest one where it always is."""
+    """Altitude above which the gravity gradient is the larger; the lowest one if it always is."""
     rows = table[(table["offset_mm"] == offset_mm) & np.isclose(table["density_factor"], factor)]
     ratio = np.log(rows["gravity_gradient_N_m"] / rows["drag_N_m"]).to_numpy()
     altitude = rows["altitude_km"].to_numpy()

@@ -64,13 +64,14 @@ def table_3_eigenaxis(config: Config, results: Path) -> Proof:
     turned = np.degrees(given.torque / moment * half**2)
     exact = np.degrees(given.torque / moment * (row["t_max"] / 2.0) ** 2)
     return Proof(
-        holds=bool(abs(row["t_max"] - PRINTED_LONGEST) > 2 * HALF_CENT and abs(exact - 90.0) < 1e-6),
+        holds=bool(
+            abs(row["t_max"] - PRINTED_LONGEST) > 2 * HALF_CENT and abs(exact - 90.0) < 1e-6
+        ),
         as_printed=f"{PRINTED_LONGEST:.2f} s turns the body by {turned:.2f} deg",
         as_corrected=f"{row['t_max']:.2f} s turns it by {exact:.2f} deg",
         statement=(
             f"2 sqrt(angle J / u) = {row['t_max']:.3f} s for J = {moment:g} kg m^2; in the printed "
-            f"time the wheels turn the body by {turned:.2f} deg only, and the printed 60.88 s beside "
-            f"it belongs to a scaled time of which 88.90 s is no multiple either"
+            f"time the wheels turn the body by {turned:.2f} deg only"
         ),
     )
 
@@ -112,15 +113,16 @@ def peak_momentum(config: Config, results: Path) -> Proof:
     alone = float(with_it["worst_miss_half_units"].min())
     together = float(both["worst_miss_half_units"].min())
     return Proof(
-        holds=bool(fits < 2.0 and alone > 5.0 and together > 5.0),
+        holds=bool(fits <= 1.0 and together > 5.0),
         as_printed=f"{PRINTED_PEAK_PCT} %",
         as_corrected=f"{peak:.2f} %",
         statement=(
             f"The printed controller gives {peak:.2f} % and the seven other printed values of both "
-            f"turns. Over all stiffnesses and dampings, three feedback laws and four holding times, "
-            f"the nearest controller misses some value by {fits:.1f} half units without the "
-            f"{PRINTED_PEAK_PCT} %, by {alone:.0f} with it for 90 deg alone, and by {together:.0f} "
-            f"for both turns; that the value is a misprint is an inference from this family"
+            f"turns, to {fits:.1f} half units of their last digits. With {PRINTED_PEAK_PCT} % "
+            f"instead, the nearest of all stiffnesses and dampings, three feedback laws and four "
+            f"holding times misses some value by {together:.0f} half units; for 90 deg alone other "
+            f"gains with a held torque come within {alone:.1f}. That the value is a misprint is an "
+            f"inference from this family of controllers"
         ),
     )
 
@@ -142,8 +144,8 @@ def dimensions(config: Config, results: Path) -> Proof:
         as_printed=f"l b = {printed:g} m^2, and {density:.2g} kg/m^3",
         as_corrected=f"l b = {correct:g} m^2, as in Table 5",
         statement=(
-            f"Table 5 has panels of {areas['side']} and {areas['end']} m^2, which are l b and b h of "
-            f"the sizes ten times the printed ones; with those the mass of {craft['mass_kg']:g} kg "
+            f"Table 5 has panels of {areas['side']} and {areas['end']} m^2, which are l b and b h "
+            f"of the sizes ten times the printed ones; with those the mass of {craft['mass_kg']:g} kg "
             f"would have a density of {density:.2g} kg/m^3"
         ),
     )
@@ -237,8 +239,8 @@ def gradient_axis(config: Config, results: Path) -> Proof:
         statement=(
             f"Eq. 27 uses the first column of the direction cosines: it equals the general formula "
             f"with r along the first inertial axis (to {ROUNDING:g}), and by the end of the "
-            f"manoeuvre, {np.degrees(angle):.1f} deg further on, it is off by {100 * off:.0f} % for "
-            f"a sample attitude"
+            f"manoeuvre, {np.degrees(angle):.1f} deg further on, it is off by {100 * off:.0f} % "
+            f"for a sample attitude"
         ),
     )
 
@@ -273,4 +275,3 @@ def guidance_share(config: Config, results: Path) -> Proof:
             f"{max(shares.values()):.1f} %"
         ),
     )
-

@@ -34,7 +34,9 @@ def eigenaxis_flights(section: Config, given: Parameters) -> pd.DataFrame:
     return pd.concat(tables, ignore_index=True)
 
 
-def replay(given: Parameters, section: Config, torques: np.ndarray, duration: float) -> pd.DataFrame:
+def replay(
+    given: Parameters, section: Config, torques: np.ndarray, duration: float
+) -> pd.DataFrame:
     """Torques at the resampling rate, flown in open loop in the fuller model."""
     command = open_loop(given, 1.0 / section["resampling_hz"], torques)
     return run(given, plant(given), command, duration, section["numerics"]["step_s"])

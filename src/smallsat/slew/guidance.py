@@ -23,7 +23,7 @@ from smallsat.optimal_control.nonlinear_program import IpoptSolver, Solution
 from smallsat.slew.parameters import Parameters
 
 STATES, CONTROLS = 10, 3
-# Kepler's equation by repeated substitution: what is left is e^6, rounding for the document's orbit.
+# Kepler's equation by repeated substitution: what is left is e^6, rounding for our orbit.
 KEPLER_STEPS = 5
 
 
@@ -88,9 +88,7 @@ class Model:
             anomaly
         ) * ca.DM(frame[1])
         v, w = q[:3], q[3]
-        body = (
-            (w * w - ca.dot(v, v)) * r + 2.0 * ca.dot(v, r) * v - 2.0 * w * ca.cross(v, r)
-        )
+        body = (w * w - ca.dot(v, v)) * r + 2.0 * ca.dot(v, r) * v - 2.0 * w * ca.cross(v, r)
         length = a * (1.0 - e * ca.cos(anomaly))
         factor = 3.0 * mu / length**3 / ca.dot(r, r)
         return factor * ca.cross(body, ca.mtimes(ca.DM(self.inertia), body))
@@ -257,9 +255,7 @@ class Result:
 class Guidance:
     """A transcribed problem and its solver, for many starts."""
 
-    def __init__(
-        self, model: Model, stated: OptimalControlProblem, mesh: Mesh, **options: Any
-    ):
+    def __init__(self, model: Model, stated: OptimalControlProblem, mesh: Mesh, **options: Any):
         self.model, self.method = model, GaussPseudospectral(stated, mesh)
         settings = {"tol": 1e-9, "max_iter": 400, "mu_strategy": "adaptive"} | options
         self._solver = IpoptSolver(self.method.program, **settings)

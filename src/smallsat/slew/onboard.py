@@ -1,4 +1,4 @@
-"""The on-board propagator: the orbit with its oblateness, and the closed-form attitude transition."""
+"""The on-board propagator: the orbit with J2, and the closed-form attitude transition."""
 
 import numpy as np
 import pandas as pd

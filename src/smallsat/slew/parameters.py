@@ -70,16 +70,16 @@ def panels(section: Config, offset: float | None = None, scale: float = 1.0) -> 
     """
     craft = section["spacecraft"]
     size = craft["size_m"]
-    l, b, h = (scale * size[name] for name in ("length", "breadth", "height"))
-    shift = l / craft["offset_divisor"] if offset is None else offset
+    length, b, h = (scale * size[name] for name in ("length", "breadth", "height"))
+    shift = length / craft["offset_divisor"] if offset is None else offset
     side, end = craft["panel_area_m2"]["side"], craft["panel_area_m2"]["end"]
     return np.array(
         [
             [side, 1, 0, 0, b / 2, -shift, 0],
-            [end, 0, 1, 0, 0, l / 2, 0],
+            [end, 0, 1, 0, 0, length / 2, 0],
             [side, 0, 0, 1, 0, -shift, h / 2],
             [side, -1, 0, 0, -b / 2, -shift, 0],
-            [end, 0, -1, 0, 0, -l / 2, 0],
+            [end, 0, -1, 0, 0, -length / 2, 0],
             [side, 0, 0, -1, 0, -shift, -h / 2],
         ]
     )

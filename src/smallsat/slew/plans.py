@@ -91,9 +91,7 @@ def best_plan(
     return min(converged or results, key=lambda r: r.cost), table
 
 
-def hold(
-    model: Model, given: Parameters, case: str, result: Result, section: Config
-) -> HeldPlan:
+def hold(model: Model, given: Parameters, case: str, result: Result, section: Config) -> HeldPlan:
     """Optimise again with a held control, from a collocated plan, and fly it anew."""
     numerics = section["numerics"]
     pieces, plan = numerics["held_intervals"], result.plan
@@ -109,7 +107,7 @@ def hold(
         np.vstack([stated.initial, plan.states, plan.ends[-1]]),
         np.vstack([plan.controls[0], plan.controls, plan.controls[-1]]),
     )
-    solution = solver.solve(guess, [numerics["smoothing"][-1]])
+    solution = solver.solve(guess, [numerics["held_smoothing"]])
     controls = np.clip(method.controls(solution.variables), -1.0, 1.0)
     length = plan.final_time / pieces
     states = fly_held(model, stated.initial, np.full(pieces, length), controls)
@@ -167,7 +165,7 @@ def node_table(model: Model, result: Result, given: Parameters, name: str) -> pd
 
 
 def held_table(model: Model, held: HeldPlan, name: str) -> pd.DataFrame:
-    """A held plan at the ends of its pieces, as flown anew; the torque is that of the next piece."""
+    """A held plan at the ends of its pieces, as flown anew, with the torque of the next piece."""
     controls = np.vstack([held.controls, held.controls[-1]]) * model.torque
     table = pd.DataFrame({"plan": name, "time_s": np.linspace(0.0, held.duration, len(controls))})
     for i in range(4):
@@ -221,6 +219,7 @@ def summary(
             "largest_torque_share": float(np.abs(held.controls).max()),
         }
         row |= {
-            f"held_peak_{a}_pct": float(p / given.momentum) for a, p in zip(AXES, flown, strict=True)
+            f"held_peak_{a}_pct": float(p / given.momentum)
+            for a, p in zip(AXES, flown, strict=True)
         }
     return row

@@ -150,9 +150,7 @@ def outer_torques(y, plant):
     body = times(dcm, r)
     g = gravity_gradient(plant.inertia, body, plant.mu)
     altitude = dot(r, r) ** 0.5 - plant.radius
-    wind = times(
-        dcm, (y[13] + EARTH_RATE * y[11], y[14] - EARTH_RATE * y[10], y[15])
-    )
+    wind = times(dcm, (y[13] + EARTH_RATE * y[11], y[14] - EARTH_RATE * y[10], y[15]))
     d = panel_drag(plant.panels, wind, density(altitude, ATMOSPHERE), plant.drag_coefficient)
     return g, d
 
@@ -289,9 +287,7 @@ def open_loop(given: Parameters, table_step: float, torques: np.ndarray) -> Comm
     """A torque history (n, 3) at equal times, linear in between."""
     plan = np.zeros((len(torques), 10))
     plan[:, :3] = torques
-    return Command(
-        OPEN_LOOP, 0.0, 0.0, 0.0, given.inertia, given.initial, 0, table_step, plan
-    )
+    return Command(OPEN_LOOP, 0.0, 0.0, 0.0, given.inertia, given.initial, 0, table_step, plan)
 
 
 def start_state(given: Parameters) -> np.ndarray:
