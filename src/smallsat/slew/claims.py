@@ -207,8 +207,9 @@ def closed_loop_of_the_axis(config: Config, results: Path) -> Judgement:
     area = 0.5 * float(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]))
     return judged(
         gap < INDEPENDENT_MISS and abs(area) > 0.01,
-        f"on our fastest feasible plan the path leaves the vertical and comes back (gap {gap:.0e}), a "
-        f"drop-shaped loop around an area of {abs(area):.2f}; a cardioid in that sense",
+        f"on our fastest feasible plan the path leaves the vertical and comes back "
+        f"(gap {gap:.0e}), a drop-shaped loop around an area of {abs(area):.2f}; "
+        f"a cardioid in that sense",
     )
 
 
@@ -260,8 +261,8 @@ def transition_matrix_keeps_length(config: Config, results: Path) -> Judgement:
     return judged(
         length < 1e-12,
         f"the length is off by at most {length:.0e} after 100 s; the attitude error is "
-        f"{rows[1.0]:g} deg with the printed step and falls by {ratio:.1f} when the step is halved, "
-        f"second order, so the step matters and rounding does not",
+        f"{rows[1.0]:g} deg with the printed step and falls by {ratio:.1f} when the step is "
+        f"halved, second order, so the step matters and rounding does not",
     )
 
 

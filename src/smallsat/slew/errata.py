@@ -145,8 +145,8 @@ def dimensions(config: Config, results: Path) -> Proof:
         as_corrected=f"l b = {correct:g} m^2, as in Table 5",
         statement=(
             f"Table 5 has panels of {areas['side']} and {areas['end']} m^2, which are l b and b h "
-            f"of the sizes ten times the printed ones; with those the mass of {craft['mass_kg']:g} kg "
-            f"would have a density of {density:.2g} kg/m^3"
+            f"of the sizes ten times the printed ones; with those the mass of "
+            f"{craft['mass_kg']:g} kg would have a density of {density:.2g} kg/m^3"
         ),
     )
 
