@@ -9,7 +9,7 @@ export OPENBLAS_NUM_THREADS := 1
 export PYTHONHASHSEED := 0
 
 .DEFAULT_GOAL := all
-.PHONY: all test lint animations benchmark lock clean
+.PHONY: all test lint animations benchmark benchmark-baseline lock clean
 
 all: $(VENV)/installed
 	@snakemake all
@@ -40,6 +40,10 @@ animations: $(VENV)/installed
 
 benchmark: $(VENV)/installed
 	python benchmarks/run.py
+
+# The side-by-side baseline of benchmarks/slew_speed.py; nothing else uses it.
+benchmark-baseline: $(VENV)/installed
+	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check yapss==0.2.3
 
 # Needs uv (pip install uv); only for changing dependencies.
 lock:

@@ -134,7 +134,8 @@ class GaussPseudospectral:
         parameters = ca.SX.sym("p", problem.parameters)
         h = final / mesh.segments
         start: Any = ca.DM(problem.initial)
-        variables, constraints, objective = [], [], 0.0
+        variables, constraints = [], []
+        objective: Any = 0.0
         for s in range(mesh.segments):
             states, controls = ca.SX.sym("X", n, k), ca.SX.sym("U", m, k)
             end = ca.SX.sym("E", n)

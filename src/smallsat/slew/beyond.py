@@ -78,7 +78,7 @@ def degradation(section: Config, given: Parameters) -> pd.DataFrame:
         # Where a wheel is full it turns on without torque, and the plan is no longer bang-bang.
         if not limited:
             arcs, solution = refine(
-                lambda x, u, t, model=model: model.rate(x, u, t),
+                model.rate,
                 stated.initial,
                 stated.terminal,
                 arcs_of(best.plan.times, best.plan.controls, best.plan.final_time),

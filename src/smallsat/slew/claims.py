@@ -31,8 +31,8 @@ SMALL_DEG = 0.005
 
 
 def _least(results: Path, case: str) -> float:
-    rows = read_table(results / "minimum-times.csv").set_index("case")
-    return float(rows.loc[case, "duration_s"])
+    rows = read_table(results / "minimum-times.csv").set_index("case")["duration_s"]
+    return float(rows.to_dict()[case])
 
 
 def not_in_the_given_time(config: Config, results: Path) -> Judgement:
@@ -220,7 +220,7 @@ def torque_all_the_time(config: Config, results: Path) -> Judgement:
     limit = 0.01 * given.torque
     shares = [
         (
-            name,
+            str(name),
             100.0 * min(float((table[f"u_{axis}"].abs() > limit).mean()) for axis in "xyz"),
         )
         for name, table in plans.groupby("plan", sort=False)
@@ -243,9 +243,8 @@ def gradient_dominates(config: Config, results: Path) -> Judgement:
     largest = max(section["environment"]["offsets_mm"])
     crossing = crossover_km(table, largest)
     worst = crossover_km(table, largest, max(section["environment"]["density_factors"]))
-    outcome = "holds" if share == 1.0 else "undecided"
     return Judgement(
-        outcome,
+        "holds" if share == 1.0 else "undecided",
         f"with the printed lever it dominates at every altitude studied; with {largest:g} mm the "
         f"crossover is at {crossing:.0f} km, at {worst:.0f} km in the densest air assumed; "
         f"{100 * share:.0f} % of the cases from 400 km on",

@@ -133,7 +133,9 @@ def search(given: Parameters) -> pd.DataFrame:
             starts = sorted(grid, key=lambda key: float(grid[key][index].max()))[:STARTS]
             wn, zeta = min(
                 (_refined(given, *start, law, hold, index) for start in starts),
-                key=lambda gains: float(np.abs(misses(given, *gains, law, hold))[index].max()),
+                key=lambda gains: float(
+                    np.abs(misses(given, gains[0], gains[1], law, hold))[index].max()
+                ),
             )
             quarter, half = (values(given, case, wn, zeta, law, hold) for case in PRINTED)
             rows.append(
@@ -160,7 +162,11 @@ def _refined(given, wn, zeta, law, hold, index) -> tuple[float, float]:
     best = np.log([wn, zeta])
 
     def worst(place: np.ndarray) -> float:
-        return float(np.abs(misses(given, *np.exp(place), law, hold))[index].max())
+        return float(
+            np.abs(misses(given, float(np.exp(place[0])), float(np.exp(place[1])), law, hold))[
+                index
+            ].max()
+        )
 
     value, width = worst(best), np.log(FREQUENCIES[1] / FREQUENCIES[0]) / GRID
     while width > 1e-5:

@@ -31,18 +31,19 @@ def torque_table(section: Config, given: Parameters) -> pd.DataFrame:
     for altitude in entry["altitudes_km"]:
         radius = given.gravity.radius + altitude * KM
         rate = np.sqrt(given.gravity.mu / radius**3)
-        gradient, drags = [], {mm: [] for mm in by_offset}
+        gradient: list[float] = []
+        drags: dict[float, list[float]] = {mm: [] for mm in by_offset}
         rho = density(altitude * KM, ATMOSPHERE)
         for angle in rate * times:
             r = radius * (np.cos(angle) * frame[0] + np.sin(angle) * frame[1])
             v = radius * rate * (np.cos(angle) * frame[1] - np.sin(angle) * frame[0])
             wind = dcm @ (v - np.cross([0.0, 0.0, EARTH_RATE], r))
             gradient.append(
-                np.linalg.norm(gravity_gradient(given.inertia, dcm @ r, given.gravity.mu))
+                float(np.linalg.norm(gravity_gradient(given.inertia, dcm @ r, given.gravity.mu)))
             )
             for mm, shape in by_offset.items():
                 drag = panel_drag(shape, wind, rho, given.drag_coefficient)
-                drags[mm].append(np.linalg.norm(drag))
+                drags[mm].append(float(np.linalg.norm(drag)))
         for mm, found in drags.items():
             for factor in entry["density_factors"]:
                 rows.append(
@@ -60,7 +61,7 @@ def torque_table(section: Config, given: Parameters) -> pd.DataFrame:
 def crossover_km(table: pd.DataFrame, offset_mm: float, factor: float = 1.0) -> float:
     """Altitude above which the gravity gradient is the larger; the lowest one if it always is."""
     rows = table[(table["offset_mm"] == offset_mm) & np.isclose(table["density_factor"], factor)]
-    ratio = np.log(rows["gravity_gradient_N_m"] / rows["drag_N_m"]).to_numpy()
+    ratio = np.log(rows["gravity_gradient_N_m"].to_numpy() / rows["drag_N_m"].to_numpy())
     altitude = rows["altitude_km"].to_numpy()
     if ratio[0] >= 0.0:
         return float(altitude[0])

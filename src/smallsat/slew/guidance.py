@@ -257,7 +257,11 @@ class Guidance:
 
     def __init__(self, model: Model, stated: OptimalControlProblem, mesh: Mesh, **options: Any):
         self.model, self.method = model, GaussPseudospectral(stated, mesh)
-        settings = {"tol": 1e-9, "max_iter": 400, "mu_strategy": "adaptive"} | options
+        settings: dict[str, Any] = {
+            "tol": 1e-9,
+            "max_iter": 400,
+            "mu_strategy": "adaptive",
+        } | options
         self._solver = IpoptSolver(self.method.program, **settings)
 
     def solve(self, guess: Guess | np.ndarray, smoothing: list[float]) -> Result:

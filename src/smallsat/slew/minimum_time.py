@@ -67,9 +67,7 @@ def least_time(
     )
     best = min((r for r in results if r.solution.converged), key=lambda r: r.duration)
     arcs = arcs_of(best.plan.times, best.plan.controls, best.plan.final_time)
-    refined, solution = refine(
-        lambda x, u, t: model.rate(x, u, t), stated.initial, stated.terminal, arcs
-    )
+    refined, solution = refine(model.rate, stated.initial, stated.terminal, arcs)
     state = fly_held(model, stated.initial, refined.durations, refined.controls)[-1]
     attitude, rate = miss(model, state, target)
     return LeastTime(

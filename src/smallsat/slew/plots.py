@@ -19,6 +19,8 @@ AXES = "xyz"
 QUATERNION = ["q_1", "q_2", "q_3", "q_4"]
 # Every so many rows of a flight at 10 Hz are drawn.
 THINNED = 2
+# Labels of the last axes stand a little above those of the first ones.
+LIFT = np.array([0.0, 0.0, 0.14])
 
 
 def attitude(flown: pd.DataFrame, title: str = "") -> Drawing:
@@ -103,7 +105,7 @@ def traces(flown: pd.DataFrame, title: str = "") -> Drawing:
         axes.text(*(1.17 * path[0]), f"${axis}_0$", color=colour, ha="center")
         # Where an axis ends as it began, one label is enough.
         if np.linalg.norm(path[-1] - path[0]) > 0.3:
-            axes.text(*(1.2 * path[-1]), f"${axis}_f$", color=colour, ha="center")
+            axes.text(*(1.2 * path[-1] + LIFT), f"${axis}_f$", color=colour, ha="center")
         for j, name in enumerate(AXES):
             data[f"{axis}_axis_{name}"] = path[:, j]
     limits = (-0.85, 0.85)
@@ -209,10 +211,7 @@ def _titled(figure: Figure, panels, title: str) -> Figure:
     if title:
         figure.suptitle(title, fontsize=8.5)
     for panel in panels:
-        panel.legend(
-            loc="lower center", bbox_to_anchor=(0.5, -0.48), ncols=4, columnspacing=1.0,
-            handlelength=1.4,
-        )  # fmt: skip
+        panel.legend(loc="best", fontsize=7, handlelength=1.3, frameon=True, framealpha=0.8)
     return _frozen(figure)
 
 

@@ -157,7 +157,8 @@ def _diagram(
         tail, head = a + share * way, b - share * way
         axes.annotate("", head, tail, arrowprops={"arrowstyle": "-|>", "color": "0.3"})
         side = np.array([0.0, 0.32]) if abs(way[0]) > abs(way[1]) else np.array([0.55, 0.0])
-        axes.text(*((tail + head) / 2 + side), label, ha="center", va="center", fontsize=7.5)
+        x, y = (tail + head) / 2 + side
+        axes.text(x, y, label, ha="center", va="center", fontsize=7.5)
     rows = [{"from": boxes[a][2], "to": boxes[b][2], "signal": label} for a, b, label in arrows]
     table = pd.DataFrame(rows).replace("\n", " ", regex=True)
     return figure, table
