@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.patches import FancyBboxPatch
+from matplotlib.patheffects import withStroke
 from matplotlib.pyplot import figure as new_figure
 from matplotlib.pyplot import subplots
 from mpl_toolkits.mplot3d import Axes3D
@@ -114,7 +115,10 @@ def spacecraft(section: Config) -> Drawing:
             place = centre + 0.045 * normal + np.array([0.0, -0.085 if k != 1 else 0.0, 0.0])
             if k == 1:
                 place = centre + np.array([0.0, 0.0, 0.07])
-            axes.text(*place, f"{k + 1} {label}\n{row[0]:g} m²", fontsize=7, ha="center", zorder=10)
+            text = axes.text(
+                *place, f"{k + 1} {label}\n{row[0]:g} m²", fontsize=7, ha="center", zorder=10
+            )
+            text.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
         rows.append({"panel": k + 1, "label": label, "area_m2": row[0]}
                     | {f"normal_{a}": row[1 + i] for i, a in enumerate("xyz")}
                     | {f"centre_{a}_m": row[4 + i] for i, a in enumerate("xyz")})  # fmt: skip
@@ -156,7 +160,10 @@ def _diagram(
         )
         tail, head = a + share * way, b - share * way
         axes.annotate("", head, tail, arrowprops={"arrowstyle": "-|>", "color": "0.3"})
-        side = np.array([0.0, 0.32]) if abs(way[0]) > abs(way[1]) else np.array([0.55, 0.0])
+        if way[0] and way[1]:
+            side = np.array([-0.75, 0.4])
+        else:
+            side = np.array([0.0, 0.32]) if abs(way[0]) > abs(way[1]) else np.array([0.55, 0.0])
         x, y = (tail + head) / 2 + side
         axes.text(x, y, label, ha="center", va="center", fontsize=7.5)
     rows = [{"from": boxes[a][2], "to": boxes[b][2], "signal": label} for a, b, label in arrows]
