@@ -42,8 +42,9 @@ benchmark: $(VENV)/installed
 	python benchmarks/run.py
 
 # The side-by-side baseline of benchmarks/slew_speed.py; nothing else uses it.
+# Without its dependencies, which would exchange the project's own CasADi.
 benchmark-baseline: $(VENV)/installed
-	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check yapss==0.2.3
+	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps yapss==0.2.3 mpmath==1.3.0
 
 # Needs uv (pip install uv); only for changing dependencies.
 lock:

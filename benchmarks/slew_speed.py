@@ -100,21 +100,25 @@ def _yapss(given: Parameters, nodes: int, smoothing: list[float]) -> tuple[float
     bounds.final_state.lower[4:] = bounds.final_state.upper[4:] = 0.0
     bounds.control.lower[:], bounds.control.upper[:] = -1.0, 1.0
     guess = ocp.guess.phase[0]
-    guess.time = [0.0, 1.0]
-    guess.state = np.column_stack([np.r_[given.initial, 0, 0, 0], np.r_[target, 0, 0, 0]])
-    guess.control = [[0.0, 0.0]] * 3
+    model = guidance_model(given)
+    _, state, control = turning_guess(model, given.initial, target, unit, (0.2, 0.0))
+    guess.time = np.linspace(0.0, 1.0, 4 * nodes)
+    guess.state = np.column_stack([state(t)[:7] for t in guess.time])
+    guess.control = np.column_stack([control(t) for t in guess.time])
     ocp.mesh.phase[0].collocation_points = [nodes]
     ocp.mesh.phase[0].fraction = [1.0]
     ocp.spectral_method = "lg"
     ocp.derivatives.method, ocp.derivatives.order = "auto", "second"
     ocp.ipopt_options.print_level = 0
     ocp.ipopt_options.tol = 1e-9
+    ocp.ipopt_options.max_iter = 400
+    ocp.ipopt_options.mu_strategy = "adaptive"
     began = time.perf_counter()
     for value in smoothing:
         stage[0] = value
         solution = ocp.solve()
         phase = solution.phase[0]
-        guess.time, guess.state, guess.control = phase.time, phase.state, None
+        guess.time, guess.state = phase.time, phase.state
         guess.control = np.array(
             [np.interp(phase.time, phase.time_c, row) for row in phase.control]
         )

@@ -99,12 +99,12 @@ def spacecraft(section: Config) -> Drawing:
         )
     )
     for sign in (1.0, -1.0):
-        ends = np.array([[0.0, 0.0, sign * sides[2] / 2], [0.0, 0.0, sign * 0.22]])
+        ends = np.array([[0.0, 0.0, sign * sides[2] / 2], [0.0, 0.0, sign * 0.2]])
         axes.plot(*ends.T, color="0.4", lw=1.2)
         axes.plot(*ends[1], "o", color="0.4", ms=5)
-    axes.text(0.0, 0.02, -0.215, "boom, length not printed", fontsize=7, color="0.3")
+    axes.text(0.0, 0.02, -0.195, "boom, length not printed", fontsize=7, color="0.3")
     for direction, name, colour in zip(np.eye(3), "xyz", ("C0", "C1", "C2"), strict=True):
-        length = {"x": 0.17, "y": 0.24, "z": 0.14}[name]
+        length = {"x": 0.17, "y": 0.21, "z": 0.13}[name]
         axes.quiver(0, 0, 0, *(length * direction), color=colour, arrow_length_ratio=0.12, zorder=9)
         axes.text(*(1.1 * length * direction), f"${name}$", color=colour, zorder=10)
     rows = []
@@ -114,7 +114,7 @@ def spacecraft(section: Config) -> Drawing:
             axes.plot(*centre, ".", color="black", ms=4, zorder=8)
             place = centre + 0.045 * normal + np.array([0.0, -0.085 if k != 1 else 0.0, 0.0])
             if k == 1:
-                place = centre + np.array([0.0, 0.0, 0.07])
+                place = centre + np.array([0.0, 0.0, 0.095])
             text = axes.text(
                 *place, f"{k + 1} {label}\n{row[0]:g} m²", fontsize=7, ha="center", zorder=10
             )
@@ -122,8 +122,8 @@ def spacecraft(section: Config) -> Drawing:
         rows.append({"panel": k + 1, "label": label, "area_m2": row[0]}
                     | {f"normal_{a}": row[1 + i] for i, a in enumerate("xyz")}
                     | {f"centre_{a}_m": row[4 + i] for i, a in enumerate("xyz")})  # fmt: skip
-    axes.set(xlim=(-0.16, 0.16), ylim=(-0.16, 0.16), zlim=(-0.16, 0.16))
-    axes.set_box_aspect((1, 1, 1), zoom=1.35)
+    axes.set(xlim=(-0.21, 0.21), ylim=(-0.21, 0.21), zlim=(-0.21, 0.21))
+    axes.set_box_aspect((1, 1, 1), zoom=1.45)
     axes.view_init(elev=22, azim=28)
     axes.set_axis_off()
     figure.text(0.02, 0.04, "opposite: 4 port, 5 aft, 6 nadir", fontsize=7.5)
