@@ -82,7 +82,7 @@ for name, files in SLEW_RUNS.items():
         params:
             command=name,
             config=as_json(SLEW_SECTION),
-            folder=SLEW,
+            folder=lambda _, output: os.path.dirname(output[0]),
         shell:
             "python -m smallsat.slew {params.command} --config {params.config:q}"
             " --output-folder {params.folder} > {log} 2>&1"
@@ -102,7 +102,7 @@ rule slew_observations:
         "logs/slew/observations.benchmark.tsv"
     params:
         config=as_json(SLEW_SECTION),
-        folder=SLEW,
+        folder=lambda _, output: os.path.dirname(output[0]),
     shell:
         "python -m smallsat.slew observe --config {params.config:q}"
         " --output-folder {params.folder} > {log} 2>&1"
