@@ -5,7 +5,7 @@ VENV := .venv
 export PATH := $(CURDIR)/$(VENV)/bin:$(PATH)
 
 .DEFAULT_GOAL := all
-.PHONY: all test lint animations benchmark lock clean
+.PHONY: all test lint animations benchmark benchmark-baseline lock clean
 
 all: $(VENV)/installed
 	@snakemake all
@@ -36,6 +36,11 @@ animations: $(VENV)/installed
 
 benchmark: $(VENV)/installed
 	python benchmarks/run.py
+
+# The side-by-side baseline of benchmarks/slew_speed.py; nothing else uses it.
+# Without its dependencies, which would exchange the project's own CasADi.
+benchmark-baseline: $(VENV)/installed
+	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps yapss==0.2.3 mpmath==1.3.0
 
 # Needs uv (pip install uv); only for changing dependencies.
 lock:

@@ -13,7 +13,7 @@ from smallsat.evidence.ledger import DOCUMENTS, read_artefacts, read_ledger
 from smallsat.evidence.printed import parse_printed
 from smallsat.evidence.verdicts import PENDING, VERDICTS
 
-BUILT = ("transfer", "mars")
+BUILT = ("transfer", "mars", "slew")
 
 
 @pytest.fixture(scope="module")
@@ -101,6 +101,31 @@ def test_mars_errata_are_the_two_known_ones(verdicts):
     lost = tables["printed"] == "(illegible)"
     results = tables[tables["quantity"].str.contains("B/") & ~lost]
     assert (results["verdict"] == "reproduced").sum() == len(results) - 1
+
+
+def test_slew_values_that_do_not_reproduce_are_the_known_ones(verdicts):
+    """Every result that needs no solve reproduces, but for four errata.
+
+    What remains rests on iterates of the printed solves or on a printed figure without its
+    assumptions; all of that is called unreproducible, and nothing else is.
+    """
+    rows = verdicts[verdicts["document"] == "slew"]
+    results = rows[rows["verdict"] == "erratum"].index
+    assert {
+        "slew/table-3/t-min/90-deg-time-optimal",
+        "slew/table-3/t-max/90-deg-eigenaxis",
+        "slew/table-2/v-f/z",
+        "slew/section-vi-a/maximum-angular-momentum-usage/90-deg-eigenaxis/z",
+    } <= set(results)
+    open_ones = rows[rows["verdict"] == "unreproducible"]
+    assert (
+        open_ones["case"]
+        .isin(["90 deg torque-optimal", "180 deg torque-optimal", "environment torque study"])
+        .all()
+    )
+    eigenaxis = rows[(rows["locator"] == "Section VI.A") & rows["case"].str.contains("Eigenaxis")]
+    judged = eigenaxis[eigenaxis["tolerance"].notna()]
+    assert (judged["verdict"] == "reproduced").all()
 
 
 @pytest.mark.parametrize("document", BUILT)

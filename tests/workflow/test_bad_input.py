@@ -16,6 +16,17 @@ import pytest
         ('transfer={"intervals": [3.5]}', ("transfer.intervals.0", "3.5", "integer")),
         ('transfer={"intervals": []}', ("transfer.intervals", "at least 1 items")),
         ('mars={"spacecraft": {"inertia_kg_m2": [10, -5, 7]}}', ("inertia_kg_m2.1", "-5")),
+        ('slew={"manoeuvre": {"duration_s": 0}}', ("manoeuvre.duration_s", "greater than 0")),
+        ('slew={"manoeuvre": {"half": {"nodes": 2}}}', ("half.nodes", "at least 3")),
+        ('slew={"wheels": {"torque_mN_m": 0}}', ("wheels.torque_mN_m", "greater than 0")),
+        (
+            'slew={"spacecraft": {"inertia_kg_m2": [[1, 0, 0], [0, 1, 0], [0, 0, 3]]}}',
+            ("slew.spacecraft.inertia_kg_m2", "of no body"),
+        ),
+        (
+            'slew={"manoeuvre": {"initial_quaternion": [0, 0, 0, 2]}}',
+            ("slew.manoeuvre.initial_quaternion", "unit quaternion"),
+        ),
         ("vesuvius=1", ("vesuvius", "unknown", "transfer, mars")),
         ("run=../out", ("run", "'../out'")),
     ],

@@ -20,6 +20,8 @@ class NonlinearProgram:
         Symbolic expressions: (n,), scalar and (m,).
     lower, upper
         Bounds (n,); may be infinite.
+    parameters
+        Symbols (p,) that are given a value at each solve, if any.
     """
 
     variables: Any
@@ -27,6 +29,7 @@ class NonlinearProgram:
     constraints: Any
     lower: np.ndarray
     upper: np.ndarray
+    parameters: Any = None
 
 
 @dataclass(frozen=True)
@@ -49,6 +52,9 @@ class Solution:
         Largest absolute constraint error.
     seconds
         Wall time of the solve alone, without building the problem.
+    multipliers
+        Of the constraints (m,), where the solver gives them: the gradient of the objective plus
+        multipliers times that of the constraints vanishes where no bound is active.
     """
 
     variables: np.ndarray
@@ -58,6 +64,7 @@ class Solution:
     iterations: int
     violation: float
     seconds: float = field(compare=False)
+    multipliers: np.ndarray | None = field(default=None, compare=False)
 
 
 class SlsqpSolver:
@@ -119,18 +126,25 @@ class IpoptSolver:
             "tol": 1e-10,
             "max_iter": 500,
         } | options
+        symbols = {"x": program.variables, "f": program.objective, "g": program.constraints}
+        if program.parameters is not None:
+            symbols["p"] = program.parameters
         self._solver = ca.nlpsol(
-            "solver",
-            "ipopt",
-            {"x": program.variables, "f": program.objective, "g": program.constraints},
-            {"print_time": False, "expand": expand, "ipopt": settings},
+            "solver", "ipopt", symbols, {"print_time": False, "expand": expand, "ipopt": settings}
         )
 
-    def solve(self, guess: np.ndarray | Sequence[float]) -> Solution:
-        """Solve from a guess (n,)."""
+    def solve(
+        self, guess: np.ndarray | Sequence[float], parameters: Sequence[float] = ()
+    ) -> Solution:
+        """Solve from a guess (n,), for values (p,) of the parameters."""
         began = time.perf_counter()
         result = self._solver(
-            x0=guess, lbx=self._program.lower, ubx=self._program.upper, lbg=0.0, ubg=0.0
+            x0=guess,
+            p=list(parameters),
+            lbx=self._program.lower,
+            ubx=self._program.upper,
+            lbg=0.0,
+            ubg=0.0,
         )
         seconds = time.perf_counter() - began
         statistics = self._solver.stats()
@@ -142,4 +156,5 @@ class IpoptSolver:
             iterations=int(statistics["iter_count"]),
             violation=float(np.max(np.abs(result["g"].full()))),
             seconds=seconds,
+            multipliers=result["lam_g"].full().ravel(),
         )

@@ -1,0 +1,134 @@
+"""The slew study's optimisations, and the same problem through yapss where that is installed.
+
+``make benchmark-baseline`` installs yapss beside the project; it is no dependency of it. Both solve
+the 90 deg turn at N = 20 with the same smoothing stages, from the same kind of guess, in this run.
+"""
+
+import importlib.util
+import time
+from pathlib import Path
+
+import numpy as np
+
+from smallsat.config import read_yaml
+from smallsat.optimal_control.gauss_pseudospectral import Mesh
+from smallsat.slew.guidance import Guidance, Result, problem, turning_guess
+from smallsat.slew.parameters import Parameters, parameters
+from smallsat.slew.plans import guidance_model
+
+CONFIG = Path(__file__).parents[1] / "config/default.yaml"
+REPETITIONS = 3
+HALF_TURN_S = 110.0
+
+
+def measure() -> dict[str, float]:
+    """Seconds of solving and costs; those of yapss too, where it is installed."""
+    section = read_yaml(CONFIG)["slew"]
+    given = parameters(section)
+    smoothing = section["numerics"]["smoothing"]
+    nodes = section["manoeuvre"]["quarter"]["nodes"]
+    half = section["manoeuvre"]["half"]
+    quarter = _solved(given, "quarter", given.duration, Mesh(1, nodes), smoothing)
+    turn = _solved(
+        given, "half", HALF_TURN_S, Mesh(half["segments"], half["segment_nodes"]), smoothing
+    )
+    found = {
+        "quarter_turn_s": quarter.seconds,
+        "quarter_turn_cost_mN_m_s": 1e3 * quarter.cost,
+        "quarter_turn_converged": float(quarter.solution.converged),
+        "half_turn_s": turn.seconds,
+        "half_turn_cost_mN_m_s": 1e3 * turn.cost,
+        "half_turn_converged": float(turn.solution.converged),
+    }
+    if importlib.util.find_spec("yapss") is None:
+        print("  yapss is not installed: no baseline; `make benchmark-baseline` installs it")
+        return found
+    seconds, cost, converged = _yapss(given, nodes, smoothing)
+    return found | {
+        "yapss_quarter_turn_s": seconds,
+        "yapss_quarter_turn_cost_mN_m_s": 1e3 * cost,
+        "yapss_quarter_turn_converged": converged,
+        "ratio": seconds / quarter.seconds,
+    }
+
+
+def _solved(
+    given: Parameters, case: str, duration: float, mesh: Mesh, smoothing: list[float]
+) -> Result:
+    model, target = guidance_model(given), given.targets[case]
+    guidance = Guidance(model, problem(model, given.initial, target, (duration, duration)), mesh)
+    guess = turning_guess(model, given.initial, target, duration, (0.2, 0.0))
+    results = [guidance.solve(guess, smoothing) for _ in range(REPETITIONS)]
+    return min(results, key=lambda result: result.seconds)
+
+
+def _yapss(given: Parameters, nodes: int, smoothing: list[float]) -> tuple[float, float, float]:
+    """The quarter turn without the gravity gradient, scaled alike; seconds, cost, converged."""
+    from yapss import Problem
+    from yapss.math import sqrt
+
+    unit, scale = given.duration, np.diag(given.inertia) / (given.torque * given.duration**2)
+    ocp = Problem(name="slew", nx=[7], nu=[3], nq=[1])
+    stage = [smoothing[0]]
+
+    def objective(arg):
+        arg.objective = arg.phase[0].integral[0]
+
+    def continuous(arg):
+        x1, x2, x3, x4, a, b, c = arg.phase[0].state
+        u = arg.phase[0].control
+        arg.phase[0].dynamics[:] = (
+            0.5 * (c * x2 - b * x3 + a * x4),
+            0.5 * (a * x3 - c * x1 + b * x4),
+            0.5 * (b * x1 - a * x2 + c * x4),
+            -0.5 * (a * x1 + b * x2 + c * x3),
+            # From rest, J w equals what the wheels gave: no gyroscopic torque is left.
+            u[0] / scale[0],
+            u[1] / scale[1],
+            u[2] / scale[2],
+        )
+        s = stage[0]
+        arg.phase[0].integrand[0] = sqrt(u[0] ** 2 + u[1] ** 2 + u[2] ** 2 + s**2) - s
+
+    ocp.functions.objective, ocp.functions.continuous = objective, continuous
+    bounds, target = ocp.bounds.phase[0], given.targets["quarter"]
+    bounds.initial_time.lower = bounds.initial_time.upper = 0.0
+    bounds.final_time.lower = bounds.final_time.upper = 1.0
+    bounds.initial_state.lower[:] = bounds.initial_state.upper[:] = np.r_[given.initial, 0, 0, 0]
+    # The scalar part follows from the other three.
+    bounds.final_state.lower[:3] = bounds.final_state.upper[:3] = target[:3]
+    bounds.final_state.lower[4:] = bounds.final_state.upper[4:] = 0.0
+    bounds.control.lower[:], bounds.control.upper[:] = -1.0, 1.0
+    guess = ocp.guess.phase[0]
+    model = guidance_model(given)
+    _, state, control = turning_guess(model, given.initial, target, unit, (0.2, 0.0))
+    guess.time = np.linspace(0.0, 1.0, 4 * nodes)
+    guess.state = np.column_stack([state(t)[:7] for t in guess.time])
+    guess.control = np.column_stack([control(t) for t in guess.time])
+    ocp.mesh.phase[0].collocation_points = [nodes]
+    ocp.mesh.phase[0].fraction = [1.0]
+    ocp.spectral_method = "lg"
+    ocp.derivatives.method, ocp.derivatives.order = "auto", "second"
+    ocp.ipopt_options.print_level = 0
+    ocp.ipopt_options.tol = 1e-9
+    ocp.ipopt_options.max_iter = 400
+    ocp.ipopt_options.mu_strategy = "adaptive"
+    began = time.perf_counter()
+    for value in smoothing:
+        stage[0] = value
+        solution = ocp.solve()
+        phase = solution.phase[0]
+        guess.time, guess.state = phase.time, phase.state
+        guess.control = np.array(
+            [np.interp(phase.time, phase.time_c, row) for row in phase.control]
+        )
+    seconds = time.perf_counter() - began
+    _, weights = np.polynomial.legendre.leggauss(nodes)
+    size = np.linalg.norm(solution.phase[0].control, axis=0)
+    cost = float(size @ weights / 2.0) * given.torque * unit
+    return seconds, cost, float(solution.nlp_info.ipopt_status == 0)
+
+
+if __name__ == "__main__":
+    for name, value in measure().items():
+        print(f"{name:34} {value:.4g}")

@@ -1,0 +1,18 @@
+from pathlib import Path
+
+import pytest
+
+from smallsat.config import read_yaml
+from smallsat.slew.parameters import parameters
+
+CONFIG = Path(__file__).parents[2] / "config/default.yaml"
+
+
+@pytest.fixture(scope="session")
+def section():
+    return read_yaml(CONFIG)["slew"]
+
+
+@pytest.fixture(scope="session")
+def given(section):
+    return parameters(section)

@@ -1,0 +1,151 @@
+"""The slew study: models, least times, plans, and what is refused."""
+
+import copy
+
+import numpy as np
+import pytest
+
+from smallsat.errors import InputError
+from smallsat.optimal_control.gauss_pseudospectral import Mesh
+from smallsat.slew import minimum_time
+from smallsat.slew.claims import bang_coast_bang
+from smallsat.slew.flights import controller
+from smallsat.slew.guidance import Model
+from smallsat.slew.parameters import check, panels
+from smallsat.slew.plans import best_plan, guidance_model, hold, least_infeasible
+from smallsat.slew.simulation import angles_deg, plant, run, usage_pct
+
+# Bilimoria and Wie's scaled least times, as the document and the literature print them.
+LITERATURE = {"half": 3.243, "quarter": 2.4211}
+
+
+def test_start_is_that_of_table_2(given):
+    """r_0 and v_0 from the elements, to the printed digits."""
+    r, v = given.state
+    assert r[0] / 1e3 == pytest.approx(6744.1, abs=0.05)
+    assert r[1] / 1e3 == pytest.approx(-1.652e-12, abs=0.5e-15)
+    assert r[2] / 1e3 == pytest.approx(11.77, abs=0.005)
+    assert v[1] / 1e3 == pytest.approx(7.707, abs=0.0005)
+
+
+def test_without_the_environment_total_momentum_stays_zero(given):
+    """J w = h all the way where the wheels carry momentum: to 1e-6 of the wheels' limit."""
+    model = plant(given, gradient=False, drag=0.0)
+    law = {"controller": {"natural_frequency_rad_s": 0.13, "damping_ratio": 1.0}}
+    command = controller(law, given, "half")._replace(target=np.array([0.5, 0.5, 0.5, 0.5]))
+    flown = run(given, model, command, 60.0, 0.01)
+    rates = flown[["omega_x", "omega_y", "omega_z"]].to_numpy()
+    momentum = flown[["h_x", "h_y", "h_z"]].to_numpy()
+    assert np.abs(momentum).max() > 1e-3
+    np.testing.assert_allclose(rates @ given.inertia, momentum, atol=1e-6 * given.momentum)
+
+
+def test_step_of_the_simulation_is_fine_enough(section, given):
+    """Half the step changes no angle of the eigenaxis turn by more than 1e-4 deg."""
+    command = controller(section, given, "quarter")
+    ends = [
+        angles_deg(run(given, plant(given), command, 100.0, step).tail(1))[0]
+        for step in (0.01, 0.005)
+    ]
+    np.testing.assert_allclose(*ends, atol=1e-4)
+
+
+def test_sampled_controller_approaches_the_continuous_one(section, given):
+    """A torque held for 0.1 s moves the final yaw by below 0.01 deg, and less than 2 s do."""
+    yaw = {
+        held: angles_deg(
+            run(given, plant(given), controller(section, given, "quarter", held), 100.0, 0.01)
+        )[-1, 2]
+        for held in (0, 10, 200)
+    }
+    assert abs(yaw[10] - yaw[0]) < min(0.01, abs(yaw[200] - yaw[0]))
+
+
+def test_symmetric_panels_give_no_torque(section):
+    """Table 5: area times half-depth is the same for all panels, so only the offset acts."""
+    table = panels(section, offset=0.0)
+    levers = table[:, 0] * np.linalg.norm(table[:, 4:7], axis=1)
+    np.testing.assert_allclose(levers, levers[0], rtol=1e-12)
+
+
+@pytest.mark.parametrize("case", ["half", "quarter"])
+def test_benchmark_of_bilimoria_and_wie(section, given, case):
+    """Least times for equal moments and unit torques: within 1e-3 of the literature."""
+    few = copy.deepcopy(section)
+    few["numerics"]["starts"] = 6
+    body = Model(np.eye(3), 1.0, 1e6, 1.0, False, None)
+    about = LITERATURE[case] * 1.05
+    found = minimum_time.least_time(
+        body, given.initial, given.targets[case], about, Mesh(10, 6), few
+    )
+    assert found.converged
+    assert found.duration == pytest.approx(LITERATURE[case], abs=1e-3)
+    assert found.attitude_miss < 1e-6
+
+
+def test_bound_is_below_every_plan_and_above_the_printed_time(given):
+    """No plan in 100 s: the bound lies between 100 s and the least time of about 105.39 s."""
+    bare, outer = (minimum_time.bound_time(given, gradient) for gradient in (False, True))
+    assert given.duration < outer < bare < 105.38
+    # By hand without the environment: pi = sqrt(a_y^2 + a_z^2) t^2 / 4.
+    rate = given.torque * np.hypot(1 / given.inertia[1, 1], 1 / given.inertia[2, 2])
+    assert bare == pytest.approx(2.0 * np.sqrt(np.pi / rate), rel=1e-4)
+
+
+def test_bound_covers_flown_motion(section, given):
+    """The path of the x axis in a flown eigenaxis turn stays below its bound."""
+    flown = run(given, plant(given), controller(section, given, "half"), 100.0, 0.01)
+    speed = np.hypot(flown["omega_y"], flown["omega_z"])
+    path = np.trapezoid(speed, flown["time_s"])
+    left = tuple(np.abs(flown[["h_y", "h_z"]].to_numpy()[-1]))
+    disturbance = minimum_time.largest_disturbance(given, 100.0)
+    bound = minimum_time.reach(np.diag(given.inertia), given.torque, 100.0, left, disturbance)
+    assert path < bound
+
+
+def test_quarter_turn_is_the_bang_coast_bang_by_hand(section, given):
+    """Without gravity gradient: held plan within 0.05 % of the cost by hand, peak to 0.1 %."""
+    model = Model(given.inertia, given.torque, given.momentum, 100.0, True, None)
+    result, starts = best_plan(model, given, "quarter", 100.0, Mesh(4, 5), section, 3)
+    assert starts["converged"].all()
+    held = hold(model, given, "quarter", result, section)
+    assert held.solution.converged
+    cost, peak = bang_coast_bang(np.pi / 2, given.inertia[2, 2], given.torque, 100.0)
+    assert held.cost == pytest.approx(cost, rel=5e-4)
+    flown = np.abs(held.states[:, 9]).max() * model.momentum_unit
+    assert flown == pytest.approx(peak, rel=1e-3)
+    assert held.attitude_miss < 1e-6
+
+
+def test_half_turn_in_the_printed_time_is_refused(section, given):
+    """The solver says infeasible; the least-infeasible plan converges and misses its end."""
+    model = guidance_model(given)
+    result, refused = least_infeasible(model, given, "half", 100.0, Mesh(10, 6), section)
+    assert not refused.converged and "Infeasible" in refused.status
+    assert result.solution.converged and result.solution.objective > 0.01
+
+
+def test_usage_is_in_percent_of_the_limits(section, given):
+    """The eigenaxis law saturates the wheel about z, and never exceeds it."""
+    flown = run(given, plant(given), controller(section, given, "half"), 100.0, 0.01)
+    torque, _ = usage_pct(flown, given)
+    assert np.abs(torque[:, 2]).max() == pytest.approx(100.0)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "words"),
+    [
+        (("spacecraft", "inertia_kg_m2"), np.diag([1.0, 1.0, 3.0]).tolist(), "no body"),
+        (("spacecraft", "inertia_kg_m2"), np.diag([1.0, -1.0, 1.0]).tolist(), "positive definite"),
+        (("spacecraft", "inertia_kg_m2"), [[1, 0.1, 0], [0, 1, 0], [0, 0, 1]], "symmetric"),
+        (("manoeuvre", "initial_quaternion"), [0.0, 0.0, 0.0, 2.0], "unit quaternion"),
+    ],
+)
+def test_what_a_schema_cannot_refuse(section, key, value, words):
+    """One line that names the key."""
+    wrong = copy.deepcopy(section)
+    wrong[key[0]][key[1]] = value
+    with pytest.raises(InputError, match=words) as refusal:
+        check(wrong)
+    assert f"slew.{'.'.join(key)}" in str(refusal.value)
+    check(section)
