@@ -83,6 +83,8 @@ for name, files in SLEW_RUNS.items():
             command=name,
             config=as_json(SLEW_SECTION),
             folder=lambda _, output: os.path.dirname(output[0]),
+        message:
+            f"slew: {name}"
         shell:
             "python -m smallsat.slew {params.command} --config {params.config:q}"
             " --output-folder {params.folder} > {log} 2>&1"
@@ -103,6 +105,8 @@ rule slew_observations:
     params:
         config=as_json(SLEW_SECTION),
         folder=lambda _, output: os.path.dirname(output[0]),
+    message:
+        "slew: observe the published values"
     shell:
         "python -m smallsat.slew observe --config {params.config:q}"
         " --output-folder {params.folder} > {log} 2>&1"
@@ -135,6 +139,8 @@ for name, (table, flight, figures, title) in SLEW_MOTIONS.items():
                     "title": title,
                 }
             ),
+        message:
+            f"slew: {name}"
         shell:
             NOTEBOOK
 
@@ -165,6 +171,8 @@ for name, (figure, plan, title) in SLEW_PLANS.items():
                     "title": title,
                 }
             ),
+        message:
+            f"slew: {name}"
         shell:
             NOTEBOOK
 
@@ -182,6 +190,8 @@ rule slew_schematics:
         "logs/slew/schematics.benchmark.tsv"
     params:
         parameters=as_json({"section": SLEW_SECTION, "folder": "figures/slew"}),
+    message:
+        "slew: draw the schematics"
     shell:
         NOTEBOOK
 
@@ -206,6 +216,8 @@ rule slew_environment:
                 "figure_path": "figures/slew/fig-02",
             }
         ),
+    message:
+        "slew: draw the environment torques"
     shell:
         NOTEBOOK
 
@@ -233,6 +245,8 @@ rule slew_beyond:
         "logs/slew/beyond.benchmark.tsv"
     params:
         parameters=as_json({"results": SLEW, "folder": "figures/slew"}),
+    message:
+        "slew: draw what goes beyond the document"
     shell:
         NOTEBOOK
 
@@ -247,3 +261,5 @@ rule slew:
         f"{SLEW}/claims.csv",
     log:
         "logs/slew/slew.log",
+    message:
+        "slew: all tables, figures and verdicts are there"

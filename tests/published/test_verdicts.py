@@ -104,10 +104,11 @@ def test_mars_errata_are_the_two_known_ones(verdicts):
 
 
 def test_slew_values_that_do_not_reproduce_are_the_known_ones(verdicts):
-    """Every result that needs no solve reproduces, but for four errata.
+    """Every result that needs no solve reproduces, but for three errata and one peak.
 
-    What remains rests on iterates of the printed solves or on a printed figure without its
-    assumptions; all of that is called unreproducible, and nothing else is.
+    What remains rests on iterates of the printed solves, on a printed figure without its
+    assumptions, or on that one peak that no single controller gives together with the other
+    values; all of that is called unreproducible, and nothing else is.
     """
     rows = verdicts[verdicts["document"] == "slew"]
     results = rows[rows["verdict"] == "erratum"].index
@@ -115,17 +116,13 @@ def test_slew_values_that_do_not_reproduce_are_the_known_ones(verdicts):
         "slew/table-3/t-min/90-deg-time-optimal",
         "slew/table-3/t-max/90-deg-eigenaxis",
         "slew/table-2/v-f/z",
-        "slew/section-vi-a/maximum-angular-momentum-usage/90-deg-eigenaxis/z",
     } <= set(results)
     open_ones = rows[rows["verdict"] == "unreproducible"]
-    assert (
-        open_ones["case"]
-        .isin(["90 deg torque-optimal", "180 deg torque-optimal", "environment torque study"])
-        .all()
-    )
-    eigenaxis = rows[(rows["locator"] == "Section VI.A") & rows["case"].str.contains("Eigenaxis")]
-    judged = eigenaxis[eigenaxis["tolerance"].notna()]
-    assert (judged["verdict"] == "reproduced").all()
+    solved = ["90 deg torque-optimal", "180 deg torque-optimal", "environment torque study"]
+    others = open_ones[~open_ones["case"].isin(solved)]
+    assert others.index.tolist() == [
+        "slew/section-vi-a/maximum-angular-momentum-usage/90-deg-eigenaxis/z"
+    ]
 
 
 @pytest.mark.parametrize("document", BUILT)
