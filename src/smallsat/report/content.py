@@ -171,6 +171,9 @@ def _extras(path: Path, run: Path) -> list[Content]:
         extra = {"title": entry["title"], "text": entry.get("text", ""), "table": None}
         if entry.get("table"):
             table = read_table(run / entry["table"])
+            # A wide table is shown by the columns that its study picks, under names of its own.
+            if columns := entry.get("columns"):
+                table = table[list(columns)].rename(columns=columns)
             extra["table"] = {
                 "target": entry["table"],
                 "header": [str(name) for name in table.columns],
