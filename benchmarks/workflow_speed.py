@@ -24,6 +24,7 @@ def measure() -> dict[str, float]:
     for path in ROOT.glob(f"{FIGURE}.*"):
         path.unlink()
     one_figure = timed("snakemake", f"{FIGURE}.svg")
+    timed("make")  # the new figure goes into the report
     nothing = timed("make")
     # Another seed makes it a what-if run, so that nothing already built is used or touched.
     shutil.rmtree(ROOT / "runs/benchmark", ignore_errors=True)
@@ -38,7 +39,7 @@ def measure() -> dict[str, float]:
     return {
         "one figure from cached results (s; goal 8)": one_figure,
         "nothing to do (s; goal 4)": nothing,
-        "all transfer cases, both runs, cold (s; goal 60)": cold,
+        "all transfer cases, both runs and the early stops, cold (s; goal 60)": cold,
     }
 
 
