@@ -139,6 +139,8 @@ def test_every_claim_is_judged(root, document):
     claims = pd.read_csv(root / f"data/results/{document}/claims.csv")
     assert claims["outcome"].isin(["holds", "fails", "undecided"]).all()
     assert claims["evidence"].notna().all()
+    # Only a what-if run may leave out what a claim needs; here it would hide a broken predicate.
+    assert not claims["evidence"].str.contains("leaves out a case").any()
 
 
 def test_artefacts_have_targets(root):
