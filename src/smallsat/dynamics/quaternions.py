@@ -58,13 +58,6 @@ def error_quaternion(q, target):
 
 
 @compiled
-def normalised(q):
-    """A quaternion of length one."""
-    length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3])
-    return (q[0] / length, q[1] / length, q[2] / length, q[3] / length)
-
-
-@compiled
 def turn_angle(q):
     """Angle of a turn, rad, between 0 and pi; accurate for small ones."""
     return 2.0 * atan2(sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]), abs(q[3]))
