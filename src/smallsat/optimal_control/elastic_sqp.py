@@ -196,10 +196,10 @@ class ElasticSqp:
             lbx=np.r_[low / scale, np.zeros(extra)],
             ubx=np.r_[high / scale, np.full(extra, np.inf)],
         )
-        step = np.clip(scale * np.ravel(answer["x"])[:n], low, high)
+        step = np.clip(scale * answer["x"].full().ravel()[:n], low, high)
         linear = values + jacobian @ step
         model = self._merit(linear, penalty) + 0.5 * step @ curvature @ step
-        return step, self._merit(values, penalty) - model, penalty * np.ravel(answer["lam_a"])
+        return step, self._merit(values, penalty) - model, penalty * answer["lam_a"].full().ravel()
 
 
 def _damped_update(b, s, y):

@@ -19,13 +19,12 @@ from smallsat.racing.cubesat import CubeSat
 
 LENGTH = 100.0  # m
 # Lowest ring speed, scaled: the direction of a velocity of zero is undefined.
-LEAST_SPEED = 0.02
+LEAST_SPEED = 1e-3
 # Segments last between these, in units of the time of free acceleration over their length.
-SHORTEST, LONGEST = 0.02, 20.0
+SHORTEST, LONGEST = 1e-4, 20.0
 # Squared norm of a scaled control: of a ball, and of a box, where it is never reached.
 BALL, BOX = 1.0, 4.0
-# The guess: ring speeds and durations for a distance of 1, and the thrust it is clipped to.
-GUESS_SPEED, GUESS_TIME, GUESS_THRUST = 0.6, 2.2, 0.9
+GUESS_THRUST = 0.9
 
 Finish = Literal["ring", "state", "rest anywhere"]
 
@@ -50,6 +49,14 @@ class Leg:
     normals: np.ndarray
     end_position: np.ndarray
     end_velocity: np.ndarray
+
+
+@dataclass(frozen=True)
+class Arcs:
+    """A first guess: ring speeds and durations over a distance of 1, scaled; numbers or arrays."""
+
+    speed: Any = 0.6
+    time: Any = 2.2
 
 
 @dataclass(frozen=True)
@@ -115,7 +122,12 @@ class CourseProgram:
         self.segments = rings + (finish != "ring")
 
     def solve(
-        self, leg: Leg, cubesat: CubeSat, mean_motion: float, guess: Plan | None = None
+        self,
+        leg: Leg,
+        cubesat: CubeSat,
+        mean_motion: float,
+        guess: Plan | None = None,
+        arcs: Arcs | None = None,
     ) -> Plan:
         """Solve for a leg; without a guess from smooth arcs through the ring centres.
 
@@ -123,13 +135,19 @@ class CourseProgram:
         """
         limits = np.array(cubesat.axis_thrust) if cubesat.axis_thrust else None
         if limits is not None and guess is None:
-            guess = self._solve(leg, np.full(3, limits.min()), BALL, mean_motion, None)
+            guess = self._solve(leg, np.full(3, limits.min()), BALL, mean_motion, None, arcs)
         if limits is not None:
-            return self._solve(leg, limits, BOX, mean_motion, guess)
-        return self._solve(leg, np.full(3, cubesat.thrust), BALL, mean_motion, guess)
+            return self._solve(leg, limits, BOX, mean_motion, guess, arcs)
+        return self._solve(leg, np.full(3, cubesat.thrust), BALL, mean_motion, guess, arcs)
 
     def _solve(
-        self, leg: Leg, limits: np.ndarray, bound: float, mean_motion: float, guess: Plan | None
+        self,
+        leg: Leg,
+        limits: np.ndarray,
+        bound: float,
+        mean_motion: float,
+        guess: Plan | None,
+        arcs: Arcs | None,
     ) -> Plan:
         thrust = float(limits.max())
         unit = _Units(thrust, mean_motion)
@@ -147,7 +165,9 @@ class CourseProgram:
             ]
         )
         durations, speeds, controls, inner, final = (
-            self._arcs(scaled) if guess is None else self._restart(guess, scaled, limits, unit)
+            self._smooth(scaled, arcs or Arcs())
+            if guess is None
+            else self._restart(guess, scaled, limits, unit)
         )
         slack = np.maximum(bound - np.sum(controls**2, axis=2), 0.0)
         free = final if self.finish == "rest anywhere" else np.empty(0)
@@ -158,18 +178,18 @@ class CourseProgram:
 
     @cached_property
     def _solver(self) -> IpoptSolver:
-        m, n, l = self.segments, self.intervals, self.rings
-        speeds, times = ca.MX.sym("speed", l), ca.MX.sym("T", m)
+        m, n, rings = self.segments, self.intervals, self.rings
+        speeds, times = ca.MX.sym("speed", rings), ca.MX.sym("T", m)
         inner, controls = ca.MX.sym("X", 6, m * (n - 1)), ca.MX.sym("U", 3, m * n)
         slack = ca.MX.sym("slack", m * n)
         free = ca.MX.sym("r_f", 3 if self.finish == "rest anywhere" else 0)
-        start, centres, normals = ca.MX.sym("x0", 6), ca.MX.sym("c", 3, l), ca.MX.sym("n", 3, l)
+        start, centres, normals = ca.MX.sym("x0", 6), ca.MX.sym("c", 3, rings), ca.MX.sym("n", 3, rings)
         end, limits = ca.MX.sym("x_f", 6), ca.MX.sym("u_max", 3)
         mean_motion, bound = ca.MX.sym("omega"), ca.MX.sym("b")
 
         flow = _flow(n).map(m * n)
         nodes: list[Any] = [start]
-        nodes += [ca.vertcat(centres[:, k], speeds[k] * normals[:, k]) for k in range(l)]
+        nodes += [ca.vertcat(centres[:, k], speeds[k] * normals[:, k]) for k in range(rings)]
         if self.finish == "state":
             nodes.append(end)
         elif self.finish == "rest anywhere":
@@ -189,7 +209,7 @@ class CourseProgram:
         low = np.concatenate(
             [
                 np.full(m, SHORTEST),
-                np.full(l, LEAST_SPEED),
+                np.full(rings, LEAST_SPEED),
                 np.full(3 * m * n, -1.0),
                 np.full(6 * m * (n - 1), -np.inf),
                 np.zeros(m * n),
@@ -199,7 +219,7 @@ class CourseProgram:
         high = np.concatenate(
             [
                 np.full(m, LONGEST),
-                np.full(l, np.inf),
+                np.full(rings, np.inf),
                 np.ones(3 * m * n),
                 np.full(6 * m * (n - 1) + m * n + free.numel(), np.inf),
             ]
@@ -214,17 +234,16 @@ class CourseProgram:
             program, expand=True, tol=1e-9, mu_strategy="adaptive", linear_solver="mumps"
         )
 
-    def _arcs(self, leg: Leg) -> tuple[np.ndarray, ...]:
+    def _smooth(self, leg: Leg, arcs: Arcs) -> tuple[np.ndarray, ...]:
         """Cubic arcs through the ring centres along their normals; their controls are clipped."""
         targets = np.vstack([leg.centres, leg.end_position])[: self.segments]
         before = np.vstack([leg.position, targets[:-1]])
         gaps = np.linalg.norm(targets - before, axis=1)
-        speeds = GUESS_SPEED * np.sqrt(gaps[: self.rings])
+        speeds = arcs.speed * np.sqrt(gaps[: self.rings])
         velocities = np.vstack([speeds[:, None] * leg.normals[: self.rings], leg.end_velocity])
         after = velocities[: self.segments]
         start = np.vstack([leg.velocity, after[:-1]])
-        # Half of what is gained or lost at full thrust, and the rest at the mean of both speeds.
-        durations = GUESS_TIME * np.sqrt(gaps)
+        durations = arcs.time * np.sqrt(gaps)
         s = np.arange(self.intervals + 1) / self.intervals
         middle = 0.5 * (s[1:] + s[:-1])
         t = durations[:, None, None]
@@ -251,15 +270,15 @@ class CourseProgram:
             x = unit.state(plan.starts[k])
             for i in range(self.intervals - 1):
                 x = flow(x, controls[k, i] * limits / limits.max(), durations[k], unit.mean_motion)
-                inner[k, i] = np.ravel(x)
+                inner[k, i] = x.full().ravel()
         speeds = np.linalg.norm(unit.state(plan.ends)[: self.rings, 3:], axis=1)
         return durations, speeds, controls, inner, unit.state(plan.final)[:3]
 
     def _plan(self, solution: Solution, leg: Leg, limits: np.ndarray, unit: "_Units") -> Plan:
-        m, n, l = self.segments, self.intervals, self.rings
+        m, n, rings = self.segments, self.intervals, self.rings
         z = solution.variables
-        durations, speeds = z[:m], z[m : m + l]
-        controls = z[m + l : m + l + 3 * m * n].reshape(m, n, 3)
+        durations, speeds = z[:m], z[m : m + rings]
+        controls = z[m + rings : m + rings + 3 * m * n].reshape(m, n, 3)
         nodes = np.column_stack([leg.centres, speeds[:, None] * leg.normals])
         starts = np.vstack([np.r_[leg.position, leg.velocity], nodes])[:m]
         if self.finish == "ring":

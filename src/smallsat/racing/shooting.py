@@ -1,8 +1,8 @@
-"""A segment flown from initial costates, compiled: the listing's dynamics (C.F), faithful or mended.
+"""A segment flown from initial costates, compiled: the listing's dynamics (C.F), as is or mended.
 
-The costates obey a linear law of their own, the control follows from them, and the state is linear in
-the control. So a segment is a sum over the Gauss points of equal panels; nothing is integrated step
-by step. SI units.
+The costates obey a linear law of their own, the control follows from them, and the state is linear
+in the control. So a segment is a sum over the Gauss points of equal panels; nothing is integrated
+step by step. SI units.
 """
 
 from math import sqrt
@@ -41,20 +41,21 @@ def exponential(a, t):
 
 
 @compiled
-def thrust_of(primer, law, limits, deadzone):
-    """Acceleration (3,) that a law makes of a primer vector (3,).
+def thrust_components(primer, law, limits, deadzone):
+    """Acceleration that a law makes of a primer vector (3,), as three numbers.
 
     ``limits`` are the accelerations of the axes; a directed thruster has the first one in every
     direction.
     """
-    u = np.zeros(3)
     if law == AXIS_BY_AXIS:
-        for i in range(3):
-            u[i] = -limits[i] * np.sign(primer[i])
-        return u
+        return (
+            -limits[0] * np.sign(primer[0]),
+            -limits[1] * np.sign(primer[1]),
+            -limits[2] * np.sign(primer[2]),
+        )
     size = sqrt(primer[0] ** 2 + primer[1] ** 2 + primer[2] ** 2)
     if size == 0.0:
-        return u
+        return 0.0, 0.0, 0.0
     thrust = limits[0]
     if law == NORM_OF_AXES:
         total = 0.0
@@ -62,7 +63,14 @@ def thrust_of(primer, law, limits, deadzone):
             if abs(primer[i]) > deadzone:
                 total += limits[i] ** 2
         thrust = sqrt(total)
-    return primer * (-thrust / size)
+    share = -thrust / size
+    return share * primer[0], share * primer[1], share * primer[2]
+
+
+@compiled
+def thrust_of(primer, law, limits, deadzone):
+    """The same as a vector (3,)."""
+    return np.array(thrust_components(primer, law, limits, deadzone))
 
 
 @compiled
@@ -90,11 +98,23 @@ def end_of_segment(state, costate, duration, a, m, law, limits, deadzone, panels
         s = 0.5 * h * (1.0 + NODES[j])
         reach[j] = exponential(a, h - s)[:, 3:] * (0.5 * h * WEIGHTS[j])
         primers[j] = exponential(m, s)[3:]
+    # Plain loops: products of such small matrices cost more to call than to do.
     x, p = state.copy(), costate.copy()
+    after, moved, primer = np.empty(6), np.empty(6), np.empty(3)
     for _ in range(panels):
-        after = step @ x
+        for i in range(6):
+            after[i] = moved[i] = 0.0
+            for k in range(6):
+                after[i] += step[i, k] * x[k]
+                moved[i] += costep[i, k] * p[k]
         for j in range(GAUSS_POINTS):
-            after += reach[j] @ thrust_of(primers[j] @ p, law, limits, deadzone)
-        x = after
-        p = costep @ p
+            for i in range(3):
+                primer[i] = 0.0
+                for k in range(6):
+                    primer[i] += primers[j, i, k] * p[k]
+            ux, uy, uz = thrust_components(primer, law, limits, deadzone)
+            for i in range(6):
+                after[i] += reach[j, i, 0] * ux + reach[j, i, 1] * uy + reach[j, i, 2] * uz
+        x[:] = after
+        p[:] = moved
     return x, p
