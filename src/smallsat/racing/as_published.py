@@ -1,15 +1,16 @@
 """The document's segment problem as its listings state it, through an SQP method.
 
-Seven unknowns, the initial costates and the duration; the miss of the ring plus the duration is to be
-least (Listing C.D) under the constraints of Listing C.E. What is kept: the guess, the bounds, every
-redundant equality, the sign slip of the costates, the deadzone of 1 in the flight and of 0 in the
-constraints, ``min(S)`` over all entries of the matrix S (so that a ring has no size at all), the
+Seven unknowns, the initial costates and the duration; the miss of the ring plus the duration is to
+be least (Listing C.D) under the constraints of Listing C.E. What is kept: the guess, the bounds,
+every redundant equality, the sign slip of the costates, the deadzone of 1 in the flight and of 0 in
+the constraints, ``min(S)`` over all entries of the matrix S (so that a ring has no size at all), the
 number of function evaluations, forward differences, and going on from wherever a solve ended.
 
-What differs from fmincon: the SQP method is our own elastic one, which like fmincon's bears dependent
-equalities (a plain SQP method such as SLSQP refuses them at once). Where it ends infeasible, the
-weight of the constraints is raised tenfold and it goes on. A primer vector of exactly zero gives no
-thrust instead of no number, and so does the guess where a CubeSat starts at the last ring's centre.
+What differs from fmincon: the SQP method is our own elastic one, which like fmincon's bears
+dependent equalities (a plain SQP method such as SLSQP refuses them at once). Where it ends
+infeasible, the weight of the constraints is raised tenfold and it goes on. A primer vector of
+exactly zero gives no thrust instead of no number, and so does the guess where a CubeSat starts at
+the last ring's centre.
 """
 
 from dataclasses import dataclass

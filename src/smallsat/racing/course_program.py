@@ -72,8 +72,8 @@ class Plan:
     controls
         Held accelerations (m, N, 3), m/s^2.
     costates
-        At the start of each segment (m, 6): the rate of the least time with the state there, s/m and
-        s/(m/s).
+        At the start of each segment (m, 6): the rate of the least time with the state there, s/m
+        and s/(m/s).
     final
         State at the end (6,).
     solution
@@ -183,7 +183,11 @@ class CourseProgram:
         inner, controls = ca.MX.sym("X", 6, m * (n - 1)), ca.MX.sym("U", 3, m * n)
         slack = ca.MX.sym("slack", m * n)
         free = ca.MX.sym("r_f", 3 if self.finish == "rest anywhere" else 0)
-        start, centres, normals = ca.MX.sym("x0", 6), ca.MX.sym("c", 3, rings), ca.MX.sym("n", 3, rings)
+        start, centres, normals = (
+            ca.MX.sym("x0", 6),
+            ca.MX.sym("c", 3, rings),
+            ca.MX.sym("n", 3, rings),
+        )
         end, limits = ca.MX.sym("x_f", 6), ca.MX.sym("u_max", 3)
         mean_motion, bound = ca.MX.sym("omega"), ca.MX.sym("b")
 

@@ -1,7 +1,7 @@
 """Plans and published solves flown anew, and what the rings say of them.
 
-A plan is flown by a Runge-Kutta method through all segments without a stop, while the optimiser used
-closed forms segment by segment. A published solve is flown by an adaptive method of order 8.
+A plan is flown by a Runge-Kutta method through all segments without a stop, while the optimiser
+used closed forms segment by segment. A published solve is flown by an adaptive method of order 8.
 """
 
 from typing import Any
@@ -155,7 +155,7 @@ def ring_rows(
 
 
 def minimum_cost(starts: np.ndarray, course: Course, thrust: float) -> float:
-    """The document's "minimum possible cost" of a path from the state at the start of each segment.
+    """The document's "minimum possible cost", from the state at each segment's start.
 
     Each term is the time on a straight line to the next centre at full thrust, with the speed there.
     """

@@ -1,7 +1,7 @@
 """A segment by Pontryagin's principle: a square system for the costates and the duration.
 
-Seven unknowns, seven conditions. At a ring: the centre (3), the two velocity components across the
-normal, the primer along the normal, which must vanish because the speed is free, and the Hamiltonian.
+Seven unknowns, seven conditions. At a ring: the centre (3), the two velocity components across
+the normal, the primer along the normal, which vanishes as the speed is free, and the Hamiltonian.
 At the finish: position and velocity (6) and the Hamiltonian. Units are scaled as in the program.
 """
 

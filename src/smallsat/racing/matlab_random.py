@@ -1,7 +1,7 @@
 """MATLAB's default random stream: ``rng(seed)``, then ``rand`` and ``randn``.
 
-The uniform numbers are those of the Mersenne twister with 53 bits. The normal ones are a ziggurat of
-256 layers on the same words; how MATLAB takes layer, sign and fraction from two words is not
+The uniform numbers are those of the Mersenne twister with 53 bits. The normal ones are a ziggurat
+of 256 layers on the same words; how MATLAB takes layer, sign and fraction from two words is not
 documented, and was found here from published outputs of ``rng(0); randn``, which a test repeats.
 """
 
@@ -50,7 +50,7 @@ class MatlabStream:
 
 @cache
 def ziggurat_edges() -> tuple[float, ...]:
-    """Right edges of the layers of equal area, from the top; the last belongs to the tail's layer."""
+    """Right edges of the layers of equal area, from the top; the last is of the tail's layer."""
 
     def edges(last: float) -> list[float]:
         area = _area(last)

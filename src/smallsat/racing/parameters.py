@@ -1,4 +1,4 @@
-"""The configuration's ``racing`` section in SI units, and the checks that a schema cannot express."""
+"""The configuration's ``racing`` section in SI units, and the checks that a schema cannot make."""
 
 from dataclasses import dataclass
 from pathlib import Path
