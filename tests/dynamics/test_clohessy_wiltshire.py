@@ -26,7 +26,7 @@ def test_transition_is_the_exponential(t):
 
 @given(times)
 def test_costates_keep_their_product_with_the_state(t):
-    """p . x is constant along a free flight: 1e-9 of its terms."""
+    """The product p . x is constant along a free flight: 1e-9 of its terms."""
     x, p = np.arange(1.0, 7.0), np.linspace(-1.0, 2.0, 6)
     later = (costate_transition(N, t) @ p) * (transition(N, t) @ x)
     assert later.sum() == pytest.approx(p @ x, abs=1e-9 * np.abs(later).max())

@@ -28,7 +28,7 @@ def test_redundant_equalities_do_no_harm(copies):
 
 
 def test_a_contradiction_is_no_convergence():
-    """x = 0 and x = 1 at once: the end is between them, and says that it violates."""
+    """Both x = 0 and x = 1: the end is between them, and says that it violates."""
 
     def functions(z):
         return np.r_[0.0, z[0], z[0] - 1.0], np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 0.0]])

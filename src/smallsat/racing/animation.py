@@ -47,7 +47,7 @@ def write_film(pictures: Iterator[bytes], path: Path | str, rate: int) -> None:
 
 
 def frames(course: Course, paths: pd.DataFrame, step: float) -> Iterator[bytes]:
-    """RGBA pictures of a race every ``step`` seconds, until the last optimal CubeSat has finished."""
+    """RGBA pictures of a race every ``step`` s, until the last optimal CubeSat has finished."""
     ends = paths[paths["solution"] == OPTIMAL].groupby("cubesat")["time_s"].max()
     with mpl.rc_context({"figure.constrained_layout.use": False}):
         figure = Figure(figsize=(WIDTH / DPI, HEIGHT / DPI), dpi=DPI)

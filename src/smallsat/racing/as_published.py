@@ -2,8 +2,8 @@
 
 Seven unknowns, the initial costates and the duration; the miss of the ring plus the duration is to
 be least (Listing C.D) under the constraints of Listing C.E. What is kept: the guess, the bounds,
-every redundant equality, the sign slip of the costates, the deadzone of 1 in the flight and of 0 in
-the constraints, ``min(S)`` over all entries of the matrix S (so that a ring has no size at all), the
+every redundant equality, the sign slip of the costates, the deadzone of 1 in the flight and of 0
+in the constraints, ``min(S)`` over all entries of the matrix S (so that a ring has no size), the
 number of function evaluations, forward differences, and going on from wherever a solve ended.
 
 What differs from fmincon: the SQP method is our own elastic one, which like fmincon's bears

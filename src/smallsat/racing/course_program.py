@@ -235,7 +235,12 @@ class CourseProgram:
             variables, ca.sum1(times), ca.vertcat(ca.vec(gaps), ball), low, high, parameters
         )
         return IpoptSolver(
-            program, expand=True, tol=1e-9, mu_strategy="adaptive", linear_solver="mumps"
+            program,
+            expand=True,
+            tol=1e-9,
+            max_iter=150,
+            mu_strategy="adaptive",
+            linear_solver="mumps",
         )
 
     def _smooth(self, leg: Leg, arcs: Arcs) -> tuple[np.ndarray, ...]:

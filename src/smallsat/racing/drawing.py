@@ -68,7 +68,7 @@ def box(axes: Any, points: np.ndarray, margin: float = 0.05) -> None:
 def label_axes(axes: Any) -> None:
     """Names and few ticks of a 3D view."""
     for name, text in zip("xyz", AXES_LABELS, strict=True):
-        getattr(axes, f"set_{name}label")(text, fontsize=7, labelpad=1)
+        getattr(axes, f"set_{name}label")(text, fontsize=7, labelpad=6 if name == "z" else 1)
     axes.tick_params(labelsize=6, pad=-1)
     axes.locator_params(nbins=4)
 

@@ -157,7 +157,7 @@ def ring_rows(
 def minimum_cost(starts: np.ndarray, course: Course, thrust: float) -> float:
     """The document's "minimum possible cost", from the state at each segment's start.
 
-    Each term is the time on a straight line to the next centre at full thrust, with the speed there.
+    Each term is the time on a straight line to the next centre at full thrust, from that speed.
     """
     targets = np.vstack([course.centres, course.end])
     return sum(

@@ -32,6 +32,8 @@ AXIS_COLOURS = {"x": BLUE, "y": VERMILION, "z": GREEN}
 ARROW_M = 110.0
 # Crossings farther off than this many times the ring's larger axis are drawn at the edge.
 FACE = 3.0
+# Around the optimal paths of a segment, m.
+SIDE_MARGIN = 45.0
 POINTS = ["x_m", "y_m", "z_m"]
 SOLUTION_COLOURS = {
     "as published": VERMILION,
@@ -57,8 +59,8 @@ def _course_in(axes: Any, course: Course, numbers: bool = True) -> np.ndarray:
     axes.plot(*course.start[:, None], "s", color=GREEN, ms=5)
     axes.plot(*course.end[:, None], "s", color=VERMILION, ms=5)
     if numbers:
-        axes.text(*(course.start + [0, 0, 60]), "start", fontsize=7, color=GREEN)
-        axes.text(*(course.end + [0, 0, -120]), "end", fontsize=7, color=VERMILION)
+        axes.text(*(course.start + np.array([0.0, 0.0, 60.0])), "start", fontsize=7, color=GREEN)
+        axes.text(*(course.end - np.array([0.0, 0.0, 120.0])), "end", fontsize=7, color=VERMILION)
     return path
 
 
@@ -128,7 +130,7 @@ PANELS = (
 
 
 def trajectory_figure(course: Course, paths: pd.DataFrame, cubesat: str) -> Figure:
-    """Figs. 3 to 6 and 9 to 12: state, primer and thrust over time; dots where rings ask for them."""
+    """Figs. 3 to 6 and 9 to 12: state, primer and thrust over time; dots where rings ask."""
     figure, grid = plt.subplots(4, 2, figsize=(WIDTH, 6.6), sharex="col")
     for column, solution in enumerate((AS_PUBLISHED, OPTIMAL)):
         own = paths[(paths["solution"] == solution) & (paths["cubesat"] == cubesat)]
@@ -168,41 +170,44 @@ def trajectory_data(paths: pd.DataFrame, cubesat: str) -> pd.DataFrame:
 
 
 def segment_figure(course: Course, paths: pd.DataFrame, segment: int) -> Figure:
-    """Figs. 13 to 61: a segment as published, optimal, and the crossings seen along the normal."""
+    """Figs. 13 to 61: a segment as published, optimal, and the crossings seen along the normal.
+
+    The paths are seen from the side on which the optimal ones bend most.
+    """
     own = paths[paths["segment"] == segment]
     final = segment == course.rings
-    figure = plt.figure(figsize=(WIDTH, 2.9))
-    grid = figure.add_gridspec(1, 3, width_ratios=(1.15, 1.15, 1.0))
+    figure = plt.figure(figsize=(WIDTH, 2.7))
+    grid = figure.add_gridspec(1, 3, width_ratios=(1.2, 1.2, 1.0))
     before = course.start if segment == 0 else course.centres[segment - 1]
     after = course.end if final else course.centres[segment]
-    optimal = positions(own[own["solution"] == OPTIMAL])
-    around = np.vstack([before, after, optimal])
+    view = _side_view(before, after, positions(own[own["solution"] == OPTIMAL]))
+    optimal = (positions(own[own["solution"] == OPTIMAL]) - before) @ view.T
+    low, high = optimal.min(axis=0) - SIDE_MARGIN, optimal.max(axis=0) + SIDE_MARGIN
     for place, solution in enumerate((AS_PUBLISHED, OPTIMAL)):
-        axes = figure.add_subplot(grid[place], projection="3d")
-        box(axes, around, 0.35)
-        limits = np.array([axes.get_xlim(), axes.get_ylim(), axes.get_zlim()])
+        axes = figure.add_subplot(grid[place])
         for name, colour in COLOURS.items():
             path = own[(own["solution"] == solution) & (own["cubesat"] == name)]
-            points = positions(path)
-            outside = ((points < limits[:, 0]) | (points > limits[:, 1])).any(axis=1)
-            axes.plot(
-                *np.where(outside[:, None], np.nan, points).T,
-                color=colour, ls=STYLES[name], lw=1.1,
-            )  # fmt: skip
+            points = (positions(path) - before) @ view.T
+            axes.plot(*points.T, color=colour, ls=STYLES[name], lw=1.2)
         for k, colour in ((segment - 1, GREEN), (segment, VERMILION)):
             if 0 <= k < course.rings:
-                axes.plot(*ring_curve(course, k, 3.0).T, color=colour, lw=1.0)
-                axes.quiver(
-                    *course.centres[k], *(50.0 * course.normals[k]), color=colour, lw=0.8,
-                    arrow_length_ratio=0.3,
+                ring = (ring_curve(course, k, 3.0) - before) @ view.T
+                axes.plot(*ring.T, color=colour, lw=1.2)
+                centre, along = (course.centres[k] - before) @ view.T, view @ course.normals[k]
+                axes.annotate(
+                    "", centre + 45.0 * along, centre,
+                    arrowprops={"arrowstyle": "->", "color": colour, "lw": 1.0},
                 )  # fmt: skip
-        if segment == 0:
-            axes.plot(*course.start[:, None], "s", color=GREEN, ms=4)
-        if final:
-            axes.plot(*course.end[:, None], "s", color=VERMILION, ms=4)
-        label_axes(axes)
-        axes.view_init(VIEW_ELEVATION_DEG, VIEW_AZIMUTH_DEG)
-        axes.set_title("as published" if solution == AS_PUBLISHED else "optimal", pad=0)
+        for spot, shown, colour in ((before, segment == 0, GREEN), (after, final, VERMILION)):
+            if shown:
+                axes.plot(*((spot - before) @ view.T), "s", color=colour, ms=5)
+        axes.set_xlim(low[0], high[0])
+        axes.set_ylim(low[1], high[1])
+        axes.set_aspect("equal", adjustable="datalim")
+        axes.set_xlabel("along the segment (m)", fontsize=8)
+        axes.set_ylabel("aside (m)" if place == 0 else "", fontsize=8)
+        axes.tick_params(labelsize=7)
+        axes.set_title("as published" if solution == AS_PUBLISHED else "optimal")
     face = figure.add_subplot(grid[2])
     _face_in(face, course, own, segment)
     handles = [
@@ -215,6 +220,18 @@ def segment_figure(course: Course, paths: pd.DataFrame, segment: int) -> Figure:
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=6, fontsize=7)
     return figure
+
+
+def _side_view(before: np.ndarray, after: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Two unit vectors (2, 3): along the segment, and where points (p, 3) leave it most."""
+    along = (after - before) / np.linalg.norm(after - before)
+    off = points - before
+    off = off - np.outer(off @ along, along)
+    aside = np.linalg.svd(off, full_matrices=False)[2][0]
+    aside = aside - (aside @ along) * along
+    aside /= np.linalg.norm(aside)
+    # Of two equal views the one in which the paths bend upwards.
+    return np.array([along, aside if (off @ aside).sum() >= 0.0 else -aside])
 
 
 def _face_in(axes: Any, course: Course, own: pd.DataFrame, segment: int) -> None:
@@ -316,7 +333,9 @@ def score_figure(scores: pd.DataFrame) -> Figure:
                         "o" if kind != "printed" else "D", color=colours[kind], ms=5,
                     )  # fmt: skip
         axes.set_xscale("log")
-        axes.set_xticks([800, 1000, 2000, 5000, 10000], ["800", "1000", "2000", "5000", "10000"])
+        axes.set_xticks(
+            [1000, 2000, 5000, 10000, 30000], ["1000", "2000", "5000", "10000", "30000"]
+        )
         axes.minorticks_off()
         axes.set_xlabel("cost (s + m)")
         axes.set_title(f"Scenario {scenario[-1]}")
