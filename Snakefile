@@ -14,7 +14,8 @@ from pathlib import Path
 from smallsat.config import read_yaml, run_folder, validate
 from smallsat.errors import InputError
 from smallsat.evidence.ledger import read_artefacts, read_ledger
-from smallsat.racing.parameters import parameters as check_racing
+from smallsat.racing.parameters import parameters as racing_parameters
+from smallsat.racing.parameters import with_absolute_course_files
 from smallsat.slew.parameters import check as check_slew
 from smallsat.sources import source_files
 from smallsat.targets import refusal
@@ -37,7 +38,8 @@ configfile: ROOT / "config/default.yaml"
 try:
     config = validate(config, read_yaml(ROOT / "config/schema.yaml"))
     check_slew(config["slew"])
-    check_racing(config["racing"])
+    config = with_absolute_course_files(config)
+    racing_parameters(config["racing"])
     RUN_FOLDER = run_folder(config, read_yaml(ROOT / "config/default.yaml"))
     read_ledger(ROOT / "data/published/values.csv")
     ARTEFACTS = read_artefacts(ROOT / "data/published/artefacts.csv")

@@ -116,9 +116,7 @@ rule racing_observations:
     input:
         sources=sources("smallsat.racing.__main__"),
         tables=RACING_TABLES,
-        seconds=[
-            f"{RACING}/{kind}-scenario-2-seconds.csv" for kind in ("as-published", "optima")
-        ],
+        seconds=[f"{RACING}/{kind}-scenario-2-seconds.csv" for kind in ("as-published", "optima")],
     output:
         RACING_MERGED,
         f"{RACING}/timings.csv",

@@ -96,8 +96,8 @@ class ElasticSqp:
         Parameters
         ----------
         functions
-            Maps a point (n,) to the values (1 + equalities + inequalities,), the objective first, and
-            their Jacobian.
+            Maps a point (n,) to the values (1 + equalities + inequalities,), the objective first,
+            and their Jacobian.
         guess, lower, upper
             (n,).
         tolerance
@@ -116,7 +116,8 @@ class ElasticSqp:
         multipliers = np.zeros(len(values) - 1)
         status = "iterations used up"
         count, first = 0, radius
-        for count in range(1, iterations + 1):
+        while count < iterations:
+            count += 1
             scale = np.maximum(np.abs(x), 1.0)
             low = np.maximum(lower - x, -radius * scale)
             high = np.minimum(upper - x, radius * scale)

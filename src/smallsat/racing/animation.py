@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import imageio_ffmpeg
 import matplotlib as mpl
@@ -52,9 +53,9 @@ def frames(course: Course, paths: pd.DataFrame, step: float) -> Iterator[bytes]:
     with mpl.rc_context({"figure.constrained_layout.use": False}):
         figure = Figure(figsize=(WIDTH / DPI, HEIGHT / DPI), dpi=DPI)
         canvas = FigureCanvasAgg(figure)
-        moving = []
+        moving: list[tuple[Any, ...]] = []
         for place, solution in enumerate((AS_PUBLISHED, OPTIMAL)):
-            axes = figure.add_axes((0.5 * place, 0.06, 0.5, 0.84), projection="3d")
+            axes: Any = figure.add_axes((0.5 * place, 0.06, 0.5, 0.84), projection="3d")
             way = np.vstack([course.start, course.centres, course.end])
             box(axes, way, 0.2)
             limits = np.array([axes.get_xlim(), axes.get_ylim(), axes.get_zlim()])
@@ -84,7 +85,7 @@ def frames(course: Course, paths: pd.DataFrame, step: float) -> Iterator[bytes]:
                 spots = np.column_stack([np.interp(when, times, column) for column in points.T])
                 # Out of view a CubeSat is not shown.
                 outside = ((spots < limits[:, 0]) | (spots > limits[:, 1])).any(axis=1)
-                spots = np.where(outside[:, None], np.nan, spots)
+                spots = np.where(np.atleast_2d(outside).T, np.nan, spots)
                 line.set_data_3d(*spots.T)
                 dot.set_data_3d(*spots[-1:].T)
                 figure.draw_artist(line)

@@ -209,7 +209,7 @@ def minimum_cost_is_no_bound_of_the_race(config: Config, results: Path) -> Judge
     texts, spread = [], []
     for name in ("Eeny", "Meeny", "Miny"):
         values = [
-            float(_races(results, solution, "scenario-1").loc[name, "minimum_cost_s"])
+            float(_races(results, solution, "scenario-1")["minimum_cost_s"].to_dict()[name])
             for solution in (WHOLE, GREEDY, AS_PUBLISHED)
         ]
         values.append(PRINTED["scenario-1", name][3])
@@ -346,8 +346,10 @@ def published_solve_is_erratic(config: Config, results: Path) -> Judgement:
 
 def penalty_is_exact(config: Config, results: Path) -> Judgement:
     """The largest multiplier of a ring's centre against the weight of a miss."""
-    meshes = _meshes(results).set_index(["scenario", "cubesat"])["largest_ring_multiplier_s_m"]
-    text = ", ".join(f"{name} {value:.3f}" for (_, name), value in meshes.iloc[:4].items())
+    table = _meshes(results)
+    meshes = table["largest_ring_multiplier_s_m"]
+    first = zip(table["cubesat"][:4], meshes[:4], strict=True)
+    text = ", ".join(f"{name} {value:.3f}" for name, value in first)
     return judged(
         bool((meshes < 1.0).all()),
         f"what a metre off a ring's centre could save is its multiplier, at most "
@@ -388,8 +390,8 @@ def optimum_is_confirmed(config: Config, results: Path) -> Judgement:
         f"{ours['residual'].max():.0e} at most; {int(starts['converged'].sum())} of {len(starts)} "
         f"random guesses converge, to times within {max(apart, 1e-12):.0e} s; finer meshes, of up "
         f"to {meshes['intervals'].max()} pieces, shorten them by {100 * change.max():.2f} % at "
-        f"most (not converged, and not counted: {', '.join(left) or 'none'}); dynamic programming over "
-        f"{name}'s ring speeds gives {dp['time_s']:.3f} s against {whole:.3f} s; of the "
+        f"most (not converged, and not counted: {', '.join(left) or 'none'}); dynamic programming "
+        f"over {name}'s ring speeds gives {dp['time_s']:.3f} s against {whole:.3f} s; of the "
         f"{int(indirect['segments'].sum())} segments of the indirect method "
         f"{int(indirect['not_converged'].sum())} do not converge",
     )

@@ -173,7 +173,7 @@ class CourseProgram:
         free = final if self.finish == "rest anywhere" else np.empty(0)
         parts = (durations, speeds, controls, inner, slack, free)
         variables = np.concatenate([np.ravel(part) for part in parts])
-        solution = self._solver.solve(variables, parameters)
+        solution = self._solver.solve(variables, parameters.tolist())
         return self._plan(solution, scaled, limits, unit)
 
     @cached_property

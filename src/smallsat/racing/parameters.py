@@ -176,3 +176,13 @@ def rings_of_scenario_2(config: Config) -> int:
     """Number of rings that the seed of Scenario 2 gives."""
     section = config["racing"]
     return _race(section, "scenario-2", ranges_of(section)).course.rings
+
+
+def with_absolute_course_files(config: Config) -> Config:
+    """The configuration with the paths of courses absolute: jobs run in the folder of the run."""
+    scenarios = {
+        name: race
+        | {"course_file": str(Path(race["course_file"]).resolve()) if race["course_file"] else ""}
+        for name, race in config["racing"]["scenarios"].items()
+    }
+    return config | {"racing": config["racing"] | {"scenarios": scenarios}}

@@ -103,7 +103,7 @@ def race_figure(course: Course, paths: pd.DataFrame, races: pd.DataFrame) -> Fig
             points = positions(path)
             # Where a path leaves the view, the line breaks off.
             outside = ((points < limits[:, 0]) | (points > limits[:, 1])).any(axis=1)
-            points = np.where(outside[:, None], np.nan, points)
+            points = np.where(np.atleast_2d(outside).T, np.nan, points)
             score = scores.loc[name]
             axes.plot(
                 *points.T, color=colour, lw=1.0,
@@ -358,7 +358,7 @@ def random_figure(courses: pd.DataFrame, races: pd.DataFrame, printed: pd.DataFr
         ("text", ORANGE, "random courses by the text's rules"),
     ):
         times = courses.loc[courses["rule"] == rule, "time_s"].dropna()
-        axes.hist(times, bins, histtype="step", color=colour, lw=1.3, label=label)
+        axes.hist(times, bins.tolist(), histtype="step", color=colour, lw=1.3, label=label)
     ours = races[(races["scenario"] == "scenario-2") & (races["solution"] == OPTIMAL)]
     axes.axvline(ours["time_s"].mean(), color=BLACK, lw=1.2, label="this course, optimal")
     top = axes.get_ylim()[1]
