@@ -14,6 +14,8 @@ from pathlib import Path
 from smallsat.config import read_yaml, run_folder, validate
 from smallsat.errors import InputError
 from smallsat.evidence.ledger import read_artefacts, read_ledger
+from smallsat.racing.parameters import parameters as racing_parameters
+from smallsat.racing.parameters import with_absolute_course_files
 from smallsat.slew.parameters import check as check_slew
 from smallsat.sources import source_files
 from smallsat.targets import refusal
@@ -36,6 +38,8 @@ configfile: ROOT / "config/default.yaml"
 try:
     config = validate(config, read_yaml(ROOT / "config/schema.yaml"))
     check_slew(config["slew"])
+    config = with_absolute_course_files(config)
+    racing_parameters(config["racing"])
     RUN_FOLDER = run_folder(config, read_yaml(ROOT / "config/default.yaml"))
     read_ledger(ROOT / "data/published/values.csv")
     ARTEFACTS = read_artefacts(ROOT / "data/published/artefacts.csv")
@@ -46,13 +50,14 @@ except InputError as error:
 workdir: ROOT / RUN_FOLDER
 
 
-STUDIES = ["transfer", "mars", "slew"]
+STUDIES = ["transfer", "mars", "slew", "racing"]
 
 
 include: "rules/common.smk"
 include: "rules/transfer.smk"
 include: "rules/mars.smk"
 include: "rules/slew.smk"
+include: "rules/racing.smk"
 include: "rules/evidence.smk"
 include: "rules/report.smk"
 

@@ -19,7 +19,7 @@ CHAPTERS = [
     project(path) for study in STUDIES if (ROOT / (path := f"report/chapters/{study}.typ")).exists()
 ]
 # Seconds, the only results that differ from run to run.
-STUDY_TIMINGS = [f"data/results/{study}/timings.csv" for study in ("transfer", "slew")]
+STUDY_TIMINGS = [f"data/results/{study}/timings.csv" for study in ("transfer", "slew", "racing")]
 
 
 rule report_content:

@@ -13,7 +13,7 @@ from smallsat.evidence.ledger import DOCUMENTS, read_artefacts, read_ledger
 from smallsat.evidence.printed import parse_printed
 from smallsat.evidence.verdicts import PENDING, VERDICTS
 
-BUILT = ("transfer", "mars", "slew")
+BUILT = ("transfer", "mars", "slew", "racing")
 
 
 @pytest.fixture(scope="module")

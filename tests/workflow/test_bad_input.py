@@ -27,6 +27,25 @@ import pytest
             'slew={"manoeuvre": {"initial_quaternion": [0, 0, 0, 2]}}',
             ("slew.manoeuvre.initial_quaternion", "unit quaternion"),
         ),
+        ('racing={"course": {"rings": [0, 0]}}', ("racing.course.rings.0", "at least 1")),
+        ('racing={"course": {"semi_major_m": [0, 5]}}', ("semi_major_m.0", "greater than 0")),
+        ('racing={"course": {"distance_m": [350, 300]}}', ("racing.course.distance_m", "no range")),
+        (
+            'racing={"scenarios": {"scenario-1": {"cubesats": {"Eeny": {"thrust_m_s2": 0}}}}}',
+            ("Eeny.thrust_m_s2", "greater than 0"),
+        ),
+        (
+            'racing={"scenarios": {"scenario-1": {"cubesats": {"Moe": {"thrust_m_s2": 1}}}}}',
+            ("cubesats.Moe", "unknown", "Eeny, Meeny, Miny, Mo"),
+        ),
+        (
+            'racing={"dynamic_programming": {"cubesat": "Moe"}}',
+            ("dynamic_programming.cubesat", "'Moe'", "Meeny"),
+        ),
+        (
+            'racing={"scenarios": {"scenario-1": {"course_file": "none.csv"}}}',
+            ("scenario-1.course_file", "none.csv", "does not exist"),
+        ),
         ("vesuvius=1", ("vesuvius", "unknown", "transfer, mars")),
         ("run=../out", ("run", "'../out'")),
     ],

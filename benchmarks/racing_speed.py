@@ -1,0 +1,64 @@
+"""The racing study's solves: the whole course, the listing's problem, random courses.
+
+The document gives 30 to 60 minutes for a new course with four CubeSats.
+"""
+
+import time
+from pathlib import Path
+
+import numpy as np
+
+from smallsat.config import read_yaml
+from smallsat.racing.course import generate
+from smallsat.racing.course_program import CourseProgram
+from smallsat.racing.cubesat import CubeSat
+from smallsat.racing.parameters import parameters
+from smallsat.racing.races import fly_as_published, fly_optima, whole_leg
+
+CONFIG = Path(__file__).parents[1] / "config/default.yaml"
+COURSES = 20
+
+
+def measure() -> dict[str, float]:
+    """Seconds of building and solving, each in one process on one core."""
+    section = read_yaml(CONFIG)["racing"]
+    given = parameters(section)
+    race = given.races["scenario-1"]
+    found: dict[str, float] = {}
+
+    program = CourseProgram(race.course.rings, "state", section["optimum"]["intervals"])
+    began = time.perf_counter()
+    program.solve(whole_leg(race.course, race.cubesats[0]), race.cubesats[0], given.mean_motion)
+    found["build_and_first_solve_s"] = time.perf_counter() - began
+    for craft in race.cubesats:
+        began = time.perf_counter()
+        plan = program.solve(whole_leg(race.course, craft), craft, given.mean_motion)
+        found[f"whole_course_{craft.name}_s"] = time.perf_counter() - began
+        found[f"whole_course_{craft.name}_converged"] = float(plan.converged)
+
+    # Compiled before the clock starts.
+    fly_as_published(given, 1e-12, "scenario-1", given.as_published, ("Miny",))
+    for scenario in given.races:
+        began = time.perf_counter()
+        fly_as_published(given, 1e-12, scenario, given.as_published)
+        found[f"as_published_{scenario}_s"] = time.perf_counter() - began
+        began = time.perf_counter()
+        fly_optima(given, section, scenario)
+        found[f"all_other_solutions_{scenario}_s"] = time.perf_counter() - began
+
+    rings = given.races["scenario-2"].course.rings
+    program = CourseProgram(rings, "state", section["optimum"]["intervals"])
+    began, converged = time.perf_counter(), 0
+    for seed in range(COURSES):
+        draws = np.random.default_rng(seed)
+        course = generate(draws, given.ranges, rings)
+        craft = CubeSat("any", section["random_courses"]["thrust_m_s2"], (), course.start)
+        converged += program.solve(whole_leg(course, craft), craft, given.mean_motion).converged
+    found["random_course_s"] = (time.perf_counter() - began) / COURSES
+    found["random_courses_converged_share"] = converged / COURSES
+    return found
+
+
+if __name__ == "__main__":
+    for name, value in measure().items():
+        print(f"{name:40} {value:.4g}")

@@ -1,0 +1,1 @@
+"""Racing: CubeSats through rings, as published and as it should have been run."""

@@ -1,0 +1,139 @@
+"""Commands of the racing study. ``python -m smallsat.racing -h``."""
+
+import argparse
+import json
+from pathlib import Path
+
+import pandas as pd
+
+from smallsat.config import Config
+from smallsat.errors import report_input_errors
+from smallsat.evidence.observation import observations_table
+from smallsat.racing import checks, recovery
+from smallsat.racing.course import course_table
+from smallsat.racing.observations import observations, timings
+from smallsat.racing.parameters import SCENARIOS, Parameters, parameters
+from smallsat.racing.races import Tables, fly_as_published, fly_optima, variants
+from smallsat.racing.random_courses import fly_random
+from smallsat.results import write_table
+
+# Years whose days are tried as seeds of the shuffled race: the listing is of 2025.
+YEARS = (2021, 2026)
+# The CubeSat whose variants are flown: all are alike in this.
+VARIED = ("Meeny",)
+
+
+def main() -> None:
+    """Parse the command line and run one command."""
+    parser = argparse.ArgumentParser(prog="python -m smallsat.racing", description=__doc__)
+    commands = parser.add_subparsers(dest="command", required=True)
+    runs = {
+        "courses": ("the courses, and the start positions from their seeds", _courses),
+        "as-published": ("a scenario as the listings do it", _as_published),
+        "optima": ("a scenario by every well-posed method", _optima),
+        "variants": ("the published solve with one thing changed", _variants),
+        "checks": ("meshes, starts, thrusts and places", _checks),
+        "dynamic-programming": ("the optimum over ring speeds", _dynamic_programming),
+        "random": ("a shard of the random courses", _random),
+        "observe": ("an observation a published value, from the results", _observe),
+    }
+    for name, (explanation, _) in runs.items():
+        command = commands.add_parser(name, help=explanation)
+        command.add_argument(
+            "--config", required=True, type=json.loads, help="racing section, JSON"
+        )
+        command.add_argument("--output-folder", required=True, type=Path)
+        command.add_argument("--scenario", choices=SCENARIOS, default=SCENARIOS[0])
+        command.add_argument("--shard", type=int, default=0)
+        command.add_argument("--shards", type=int, default=1)
+    arguments = parser.parse_args()
+    given = parameters(arguments.config)
+    runs[arguments.command][1](arguments.config, given, arguments.output_folder, arguments)
+
+
+def _courses(section: Config, given: Parameters, folder: Path, _: argparse.Namespace) -> None:
+    for scenario, race in given.races.items():
+        write_table(course_table(race.course), folder / f"course-{scenario}.csv")
+    seeds = {name: section["scenarios"][name]["seed"] for name in SCENARIOS}
+    write_table(recovery.recovered(given, seeds), folder / "start-positions.csv")
+    days = recovery.search_days(given, SCENARIOS[1], *YEARS)
+    write_table(days, folder / "days-as-seeds.csv")
+
+
+def _write(tables: Tables, folder: Path, stem: str) -> None:
+    for name, table in tables.frames().items():
+        write_table(table, folder / f"{stem}-{name}.csv")
+    write_table(tables.trajectory(), folder / f"{stem}-trajectories.parquet")
+
+
+def _as_published(
+    section: Config, given: Parameters, folder: Path, arguments: argparse.Namespace
+) -> None:
+    tolerance = section["as_published"]["tolerance"]
+    flown = fly_as_published(given, tolerance, arguments.scenario, given.as_published)
+    _write(flown, folder, f"as-published-{arguments.scenario}")
+
+
+def _optima(
+    section: Config, given: Parameters, folder: Path, arguments: argparse.Namespace
+) -> None:
+    flown = fly_optima(given, section, arguments.scenario)
+    _write(flown, folder, f"optima-{arguments.scenario}")
+
+
+def _variants(section: Config, given: Parameters, folder: Path, _: argparse.Namespace) -> None:
+    write_table(variants(given, section, SCENARIOS[0], VARIED), folder / "variants.csv")
+
+
+def _checks(section: Config, given: Parameters, folder: Path, _: argparse.Namespace) -> None:
+    meshes = [checks.mesh_refinement(given, section, name) for name in SCENARIOS]
+    write_table(pd.concat(meshes, ignore_index=True), folder / "meshes.csv")
+    starts = [checks.other_starts(given, section, name) for name in SCENARIOS]
+    write_table(pd.concat(starts, ignore_index=True), folder / "other-starts.csv")
+    write_table(checks.thrust_sweep(given, section, SCENARIOS[0]), folder / "thrust-sweep.csv")
+    places = checks.start_positions(given, section, SCENARIOS[1])
+    write_table(places, folder / "random-positions.csv")
+
+
+def _dynamic_programming(
+    section: Config, given: Parameters, folder: Path, _: argparse.Namespace
+) -> None:
+    table = checks.dynamic_programming(given, section, SCENARIOS[0])
+    write_table(table, folder / "dynamic-programming.csv")
+
+
+def _random(
+    section: Config, given: Parameters, folder: Path, arguments: argparse.Namespace
+) -> None:
+    rings = given.races[SCENARIOS[1]].course.rings
+    found, seconds = fly_random(given, section, arguments.shard, arguments.shards, rings)
+    write_table(found, folder / f"random-courses-{arguments.shard}.csv")
+    write_table(seconds, folder / f"random-courses-{arguments.shard}-seconds.csv")
+
+
+def _observe(section: Config, given: Parameters, folder: Path, _: argparse.Namespace) -> None:
+    races = [
+        pd.read_csv(folder / f"{kind}-{name}-races.csv")
+        for name in SCENARIOS
+        for kind in ("as-published", "optima")
+    ]
+    table = pd.concat(races, ignore_index=True)
+    write_table(table, folder / "races.csv")
+    rings = [
+        pd.read_csv(folder / f"{kind}-{name}-rings.csv")
+        for name in SCENARIOS
+        for kind in ("as-published", "optima")
+    ]
+    write_table(pd.concat(rings, ignore_index=True), folder / "rings.csv")
+    shards = sorted(
+        path for path in folder.glob("random-courses-*.csv") if "seconds" not in path.name
+    )
+    courses = pd.concat([pd.read_csv(path) for path in shards], ignore_index=True)
+    courses = courses.sort_values(["number", "rule"], ignore_index=True)
+    write_table(courses, folder / "random-courses.csv")
+    write_table(observations_table(observations(table)), folder / "observations.csv")
+    write_table(timings(folder), folder / "timings.csv")
+
+
+if __name__ == "__main__":
+    report_input_errors(main)

@@ -1,0 +1,387 @@
+"""The races: both scenarios, by every kind of solution, as tidy tables."""
+
+import time
+from dataclasses import dataclass, field, replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from smallsat.config import Config
+from smallsat.racing import as_published, indirect
+from smallsat.racing.course import Course
+from smallsat.racing.course_program import LEAST_SPEED, LENGTH, CourseProgram, Leg, Plan
+from smallsat.racing.cubesat import CubeSat
+from smallsat.racing.flight import (
+    fly_plan,
+    fly_segment,
+    minimum_cost,
+    plan_table,
+    residual,
+    ring_rows,
+    segment_table,
+)
+from smallsat.racing.parameters import Parameters
+
+AS_PUBLISHED = "as published"
+GREEDY = "segment by segment"
+INDIRECT = "segment by segment, indirect"
+WHOLE = "whole course"
+ANYWHERE = "whole course, rest anywhere"
+SOLUTIONS = (AS_PUBLISHED, GREEDY, INDIRECT, WHOLE, ANYWHERE)
+# The start positions lie in a plane.
+ALONG_TRACK_VARIANCE = 0.0
+# Of the least ring speed: below this a solution counts as held by it.
+SLOW = 1.01
+REST = np.zeros(3)
+
+
+@dataclass
+class Tables:
+    """Rows of the tables that a kind of solution fills; `frames` makes tables of them."""
+
+    races: list[dict[str, Any]] = field(default_factory=list)
+    rings: list[dict[str, Any]] = field(default_factory=list)
+    segments: list[dict[str, Any]] = field(default_factory=list)
+    trajectories: list[pd.DataFrame] = field(default_factory=list)
+    seconds: list[dict[str, Any]] = field(default_factory=list)
+
+    def frames(self) -> dict[str, pd.DataFrame]:
+        """The tables by name, the seconds apart."""
+        return {
+            "races": pd.DataFrame(self.races),
+            "rings": pd.DataFrame(self.rings),
+            "segments": pd.DataFrame(self.segments),
+            "seconds": pd.DataFrame(self.seconds),
+        }
+
+    def trajectory(self) -> pd.DataFrame:
+        """All trajectories in one table."""
+        return pd.concat(self.trajectories, ignore_index=True)
+
+
+@cache
+def program(rings: int, finish: Any, intervals: int) -> CourseProgram:
+    """One program for a number of rings, built once."""
+    return CourseProgram(rings, finish, intervals)
+
+
+def whole_leg(course: Course, cubesat: CubeSat) -> Leg:
+    """The race of a CubeSat from its place at the start to rest at the end ring."""
+    return Leg(cubesat.position, REST, course.centres, course.normals, course.end, REST)
+
+
+def segment_name(course: Course, k: int) -> str:
+    """Name of a segment, as in the captions: ``3 to 4``."""
+    return f"{k} to {k + 1 if k < course.rings else 'end'}"
+
+
+def fly_optima(given: Parameters, section: Config, scenario: str) -> Tables:
+    """Every CubeSat of a scenario by the three well-posed kinds of solution."""
+    tables = Tables()
+    race = given.races[scenario]
+    numerics = section["optimum"]
+    for cubesat in race.cubesats:
+        key = {"scenario": scenario, "cubesat": cubesat.name}
+        for name, finish in ((WHOLE, "state"), (ANYWHERE, "rest anywhere")):
+            solver = program(race.course.rings, finish, numerics["intervals"])
+            plan = solver.solve(whole_leg(race.course, cubesat), cubesat, given.mean_motion)
+            _add_plan(tables, key | {"solution": name}, plan, given, race.course, cubesat)
+            tables.seconds.append(key | {"solution": name, "seconds": plan.solution.seconds})
+        began = time.perf_counter()
+        plans = greedy(race.course, cubesat, given.mean_motion, numerics["intervals"])
+        greedy_seconds = time.perf_counter() - began
+        joined = join(plans)
+        _add_plan(tables, key | {"solution": GREEDY}, joined, given, race.course, cubesat, plans)
+        tables.seconds.append(key | {"solution": GREEDY, "seconds": greedy_seconds})
+        if not cubesat.axis_thrust:
+            began = time.perf_counter()
+            _add_extremals(tables, key, plans, given, section, race.course, cubesat)
+            seconds = time.perf_counter() - began
+            tables.seconds.append(key | {"solution": INDIRECT, "seconds": seconds})
+    return tables
+
+
+def greedy(course: Course, cubesat: CubeSat, mean_motion: float, intervals: int) -> list[Plan]:
+    """Each segment in least time by itself, from where the last one ended."""
+    state = np.r_[cubesat.position, REST]
+    plans = []
+    for k in range(course.rings + 1):
+        final = k == course.rings
+        leg = Leg(
+            state[:3],
+            state[3:],
+            course.centres[k : k + 1],
+            course.normals[k : k + 1],
+            course.end,
+            REST,
+        )
+        solver = program(0 if final else 1, "state" if final else "ring", intervals)
+        plans.append(solver.solve(leg, cubesat, mean_motion))
+        state = plans[-1].final
+    return plans
+
+
+def join(plans: list[Plan]) -> Plan:
+    """Plans flown one after the other as one plan; its status is that of the worst."""
+    worst = next((plan for plan in plans if not plan.converged), plans[-1])
+    return Plan(
+        durations=np.concatenate([plan.durations for plan in plans]),
+        starts=np.vstack([plan.starts for plan in plans]),
+        controls=np.concatenate([plan.controls for plan in plans]),
+        costates=np.vstack([plan.costates for plan in plans]),
+        final=plans[-1].final,
+        solution=worst.solution,
+    )
+
+
+def _add_plan(
+    tables: Tables,
+    key: dict[str, Any],
+    plan: Plan,
+    given: Parameters,
+    course: Course,
+    cubesat: CubeSat,
+    plans: list[Plan] | None = None,
+) -> None:
+    flown = fly_plan(plan, given.mean_motion)
+    arrivals = np.cumsum(plan.durations)
+    rows = ring_rows(course, flown[:, -1], arrivals, given.plane, given.pointing)
+    accuracy = sum(row["miss_m"] for row in rows)
+    failed = [segment_name(course, k) for k, one in enumerate(plans or [plan]) if not one.converged]
+    tables.races.append(
+        key
+        | {
+            "cost": plan.time + accuracy,
+            "time_s": plan.time,
+            "accuracy_m": accuracy,
+            "minimum_cost_s": minimum_cost(flown[:, 0], course, cubesat.thrust),
+            "missed": sum(row["missed"] for row in rows),
+            "off_axis": sum(row["off_axis"] for row in rows),
+            "rings": course.rings,
+            "segments": course.rings + 1,
+            "not_converged": len(failed),
+            "segments_not_converged": "; ".join(failed),
+            "residual": residual(plan, flown, cubesat, course),
+            "iterations": plan.solution.iterations,
+        }
+    )
+    tables.rings += [key | row for row in rows]
+    tables.segments += [
+        key
+        | {
+            "segment": k,
+            "name": segment_name(course, k),
+            "duration_s": float(plan.durations[k]),
+            "converged": (plans[k] if plans else plan).converged,
+            "status": (plans[k] if plans else plan).solution.status,
+            **dict(zip(_COSTATES, plan.costates[k].tolist(), strict=True)),
+        }
+        for k in range(course.rings + 1)
+    ]
+    table = plan_table(plan, given.mean_motion)
+    for place, (name, value) in enumerate(key.items()):
+        table.insert(place, name, value)
+    tables.trajectories.append(table)
+
+
+_COSTATES = ["px", "py", "pz", "pvx", "pvy", "pvz"]
+
+
+def _add_extremals(
+    tables: Tables,
+    key: dict[str, Any],
+    plans: list[Plan],
+    given: Parameters,
+    section: Config,
+    course: Course,
+    cubesat: CubeSat,
+) -> None:
+    """The same segments by the indirect method, each from the start of the direct one."""
+    key = key | {"solution": INDIRECT}
+    rows, failed, total = [], [], 0.0
+    ends, starts = [], []
+    for k, plan in enumerate(plans):
+        final = k == course.rings
+        # Where the direct solution crosses at the least speed allowed, the speed is not free.
+        speed = float(np.linalg.norm(plan.final[3:]))
+        slowest = SLOW * LEAST_SPEED * np.sqrt(LENGTH * cubesat.thrust)
+        goal = indirect.Goal(
+            course.end if final else course.centres[k],
+            course.normals[min(k, course.rings - 1)],
+            plan.final[3:] if speed < slowest else None,
+        )
+        for panels in (section["optimum"]["indirect_panels"] * 8**i for i in range(3)):
+            found = indirect.solve(
+                plan.starts[0],
+                goal,
+                cubesat.thrust,
+                given.mean_motion,
+                plan.costates[0],
+                plan.time,
+                panels,
+            )
+            if found.converged:
+                break
+        if not found.converged:
+            failed.append(segment_name(course, k))
+        total += found.duration
+        starts.append(plan.starts[0])
+        ends.append(found.end)
+        rows.append(
+            key
+            | {
+                "segment": k,
+                "name": segment_name(course, k),
+                "duration_s": found.duration,
+                "converged": found.converged,
+                "status": "converged" if found.converged else f"error {found.error:.0e}",
+                **dict(zip(_COSTATES, found.costate.tolist(), strict=True)),
+            }
+        )
+    tables.segments += rows
+    arrivals = np.cumsum([row["duration_s"] for row in rows])
+    passed = ring_rows(course, np.array(ends), arrivals, given.plane, given.pointing)
+    accuracy = sum(row["miss_m"] for row in passed)
+    tables.rings += [key | row for row in passed]
+    tables.races.append(
+        key
+        | {
+            "cost": total + accuracy,
+            "time_s": total,
+            "accuracy_m": accuracy,
+            "minimum_cost_s": minimum_cost(np.array(starts), course, cubesat.thrust),
+            "missed": sum(row["missed"] for row in passed),
+            "off_axis": sum(row["off_axis"] for row in passed),
+            "rings": course.rings,
+            "segments": course.rings + 1,
+            "not_converged": len(failed),
+            "segments_not_converged": "; ".join(failed),
+            "residual": np.nan,
+            "iterations": 0,
+        }
+    )
+
+
+def fly_as_published(
+    given: Parameters,
+    tolerance: float,
+    scenario: str,
+    settings: as_published.Settings,
+    cubesats: tuple[str, ...] = (),
+) -> Tables:
+    """Every CubeSat of a scenario as the listings do it, or those named."""
+    tables = Tables()
+    race = given.races[scenario]
+    for cubesat in race.cubesats:
+        if not cubesats or cubesat.name in cubesats:
+            _fly_as_published(tables, given, tolerance, scenario, settings, race.course, cubesat)
+    return tables
+
+
+def _fly_as_published(
+    tables: Tables,
+    given: Parameters,
+    tolerance: float,
+    scenario: str,
+    settings: as_published.Settings,
+    course: Course,
+    cubesat: CubeSat,
+) -> None:
+    key = {"scenario": scenario, "cubesat": cubesat.name, "solution": AS_PUBLISHED}
+    state, began = np.r_[cubesat.position, REST], 0.0
+    previous = course.start
+    ends, starts, arrivals, costs, failed = [], [], [], [], []
+    solving, evaluations = 0.0, 0
+    for k in range(course.rings + 1):
+        final = k == course.rings
+        target = as_published.Target(
+            centre=course.end if final else course.centres[k],
+            normal=course.normals[min(k, course.rings - 1)],
+            size=0.0 if final else float(course.sizes[k]),
+            previous_centre=previous,
+            final=final,
+        )
+        clock = time.perf_counter()
+        solved = as_published.solve_segment(state, target, cubesat, given.mean_motion, settings)
+        solving += time.perf_counter() - clock
+        times, flown = fly_segment(
+            state,
+            solved.costate,
+            solved.duration,
+            cubesat,
+            given.mean_motion,
+            settings.deadzone,
+            tolerance,
+            settings.transposed,
+        )
+        tables.trajectories.append(
+            segment_table(k, began, times, flown, cubesat, settings.deadzone).assign(**key)
+        )
+        tables.segments.append(
+            key
+            | {
+                "segment": k,
+                "name": segment_name(course, k),
+                "duration_s": solved.duration,
+                "converged": solved.converged,
+                "status": solved.status,
+                **dict(zip(_COSTATES, solved.costate.tolist(), strict=True)),
+            }
+        )
+        if not solved.converged:
+            failed.append(segment_name(course, k))
+        evaluations += solved.evaluations
+        starts.append(state)
+        state, began, previous = flown[-1, :6], began + solved.duration, target.centre
+        ends.append(state)
+        arrivals.append(began)
+        # The printed cost is the solver's; the flight's own miss is what we count.
+        miss = 0.0 if final else float(np.linalg.norm(state[:3] - target.centre))
+        costs.append(solved.duration + miss)
+    rows = ring_rows(course, np.array(ends), np.array(arrivals), given.plane, given.pointing)
+    accuracy = sum(row["miss_m"] for row in rows)
+    tables.rings += [key | row for row in rows]
+    tables.races.append(
+        key
+        | {
+            "cost": sum(costs),
+            "time_s": began,
+            "accuracy_m": accuracy,
+            "minimum_cost_s": minimum_cost(np.array(starts), course, cubesat.thrust),
+            "missed": sum(row["missed"] for row in rows),
+            "off_axis": sum(row["off_axis"] for row in rows),
+            "rings": course.rings,
+            "segments": course.rings + 1,
+            "not_converged": len(failed),
+            "segments_not_converged": "; ".join(failed),
+            "residual": np.nan,
+            "iterations": evaluations,
+        }
+    )
+    tables.seconds.append(key | {"seconds": solving})
+
+
+def variants(
+    given: Parameters, section: Config, scenario: str, cubesats: tuple[str, ...] = ()
+) -> pd.DataFrame:
+    """What the printed races become where one thing is done otherwise; all else as published."""
+    base = given.as_published
+    changes = {
+        "as published": base,
+        "rings have their smaller axis as size": replace(base, ring_sizes=True),
+        "costates mended": replace(base, transposed=True),
+        "both": replace(base, ring_sizes=True, transposed=True),
+    } | {
+        f"constraints weigh {weight:g} at first": replace(base, first_penalty=weight)
+        for weight in section["as_published"]["other_first_weights"]
+    }
+    tolerance = section["as_published"]["tolerance"]
+    parts = []
+    for name, settings in changes.items():
+        flown = fly_as_published(given, tolerance, scenario, settings, cubesats)
+        table = pd.DataFrame(flown.races)
+        table["solution"] = name
+        parts.append(table.rename(columns={"solution": "variant"}))
+    return pd.concat(parts, ignore_index=True)

@@ -1,0 +1,23 @@
+from pathlib import Path
+
+import pytest
+
+from smallsat.config import read_yaml
+from smallsat.racing.parameters import parameters
+
+CONFIG = Path(__file__).parents[2] / "config/default.yaml"
+
+
+@pytest.fixture(scope="session")
+def config():
+    return read_yaml(CONFIG)
+
+
+@pytest.fixture(scope="session")
+def section(config):
+    return config["racing"]
+
+
+@pytest.fixture(scope="session")
+def given(section):
+    return parameters(section)

@@ -1,0 +1,98 @@
+"""Proofs of the errata hold, and fail where what they rest on is changed."""
+
+from copy import deepcopy
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from smallsat.racing import claims, errata
+from smallsat.racing.printed import PRINTED
+
+RESULTS = Path("nowhere")
+
+
+@pytest.mark.parametrize(
+    "proof", ["start_covariance", "start_ring_comment", "angle_steps", "costate_transpose"]
+)
+def test_proofs_without_results_hold(config, proof):
+    """Those that need no solve."""
+    assert getattr(errata, proof)(config, RESULTS).holds
+
+
+@pytest.mark.parametrize(
+    ("proof", "change"),
+    [
+        ("start_covariance", ("start", "sigma_level", 1.0)),
+        ("start_ring_comment", ("start", "axis_multiple", 5.0)),
+    ],
+)
+def test_proofs_fail_with_the_printed_number(config, proof, change):
+    """With the printed number in the configuration its proof does not hold."""
+    changed = deepcopy(config)
+    group, key, value = change
+    changed["racing"][group][key] = value
+    assert not getattr(errata, proof)(changed, RESULTS).holds
+
+
+def test_angle_steps_need_the_seeds(config):
+    """Another seed gives neither start."""
+    changed = deepcopy(config)
+    changed["racing"]["scenarios"]["scenario-2"]["seed"] = 739743
+    assert not errata.angle_steps(changed, RESULTS).holds
+
+
+def test_costate_proof_can_fail(config, monkeypatch):
+    """If the listing's matrix were the right one, nothing would be proven."""
+    right = errata.hamiltonian_drift
+    monkeypatch.setattr(errata, "hamiltonian_drift", lambda c, transposed: right(c, True))
+    assert not errata.costate_transpose(config, RESULTS).holds
+
+
+def test_adjoint_proof_can_fail(config, monkeypatch):
+    """With the corrected entry printed there would be no erratum."""
+    printed = errata.printed_adjoint_transition
+
+    def mended(n, t):
+        matrix = printed(n, t)
+        matrix[4, 1] = 3.0 * t - 4.0 / n * np.sin(n * t)
+        return matrix
+
+    assert errata.adjoint_transition(config, RESULTS).holds
+    monkeypatch.setattr(errata, "printed_adjoint_transition", mended)
+    assert not errata.adjoint_transition(config, RESULTS).holds
+
+
+def test_ring_size_and_axial_thrust(config, monkeypatch):
+    """Both hold; the law's proof fails where no component lies in the deadzone."""
+    assert errata.ring_size(config, RESULTS).holds
+    assert errata.axial_thrust(config, RESULTS).holds
+    monkeypatch.setattr(errata, "PRIMER", np.array([2.0, 2.0, -3.0]))
+    assert not errata.axial_thrust(config, RESULTS).holds
+
+
+def test_redundancy_proof_can_fail(config, monkeypatch):
+    """Were the twelve rows of rank five, nothing would be redundant beyond the fixed ones."""
+    monkeypatch.setattr(errata, "equality_ranks", lambda *_, **__: (5, 5, 3))
+    monkeypatch.setattr(
+        errata, "read_table", lambda _: __import__("pandas").DataFrame({"converged": [True]})
+    )
+    assert not errata.redundant_equalities(config, RESULTS).holds
+
+
+def test_printed_scores_add_up(config, monkeypatch):
+    """The claim on cost, time and accuracy fails with one digit changed."""
+    assert claims.cost_is_time_plus_accuracy(config, RESULTS).outcome == "holds"
+    wrong = dict(PRINTED)
+    cost, time, accuracy, least = wrong["scenario-1", "Mo"]
+    wrong["scenario-1", "Mo"] = (cost + 0.01, time, accuracy, least)
+    monkeypatch.setattr(claims, "PRINTED", wrong)
+    assert claims.cost_is_time_plus_accuracy(config, RESULTS).outcome == "fails"
+
+
+def test_five_printed_runs_missed(config):
+    """Eeny and Mo of Scenario 1, Eeny, Miny and Mo of Scenario 2."""
+    judgement = claims.printed_runs_missed(config, RESULTS)
+    assert judgement.outcome == "holds"
+    for name in ("Eeny 92.1", "Mo 693.7", "Eeny 609.0", "Miny 665.8", "Mo 143.3"):
+        assert name in judgement.evidence
