@@ -26,9 +26,14 @@ def mesh_refinement(given: Parameters, section: Config, scenario: str) -> pd.Dat
     numerics, race = section["optimum"], given.races[scenario]
     rows = []
     for cubesat in race.cubesats:
+        leg, plan = whole_leg(race.course, cubesat), None
         for intervals in (numerics["intervals"], *numerics["finer_intervals"]):
             solver = program(race.course.rings, "state", intervals)
-            plan = solver.solve(whole_leg(race.course, cubesat), cubesat, given.mean_motion)
+            plan = (
+                solver.refine(leg, cubesat, given.mean_motion, plan)
+                if plan
+                else solver.solve(leg, cubesat, given.mean_motion)
+            )
             flown = fly_plan(plan, given.mean_motion)
             rows.append(
                 {

@@ -140,6 +140,13 @@ class CourseProgram:
             return self._solve(leg, limits, BOX, mean_motion, guess, arcs)
         return self._solve(leg, np.full(3, cubesat.thrust), BALL, mean_motion, guess, arcs)
 
+    def refine(self, leg: Leg, cubesat: CubeSat, mean_motion: float, coarser: Plan) -> Plan:
+        """Solve for a leg from the optimum of a coarser mesh, close to this one's."""
+        box = cubesat.axis_thrust
+        limits = np.array(box) if box else np.full(3, cubesat.thrust)
+        bound = BOX if box else BALL
+        return self._solve(leg, limits, bound, mean_motion, coarser, None, self._refining_solver)
+
     def _solve(
         self,
         leg: Leg,
@@ -148,6 +155,7 @@ class CourseProgram:
         mean_motion: float,
         guess: Plan | None,
         arcs: Arcs | None,
+        solver: IpoptSolver | None = None,
     ) -> Plan:
         thrust = float(limits.max())
         unit = _Units(thrust, mean_motion)
@@ -173,11 +181,25 @@ class CourseProgram:
         free = final if self.finish == "rest anywhere" else np.empty(0)
         parts = (durations, speeds, controls, inner, slack, free)
         variables = np.concatenate([np.ravel(part) for part in parts])
-        solution = self._solver.solve(variables, parameters.tolist())
+        solution = (solver or self._solver).solve(variables, parameters.tolist())
         return self._plan(solution, scaled, limits, unit)
 
     @cached_property
     def _solver(self) -> IpoptSolver:
+        return self._ipopt(mu_strategy="adaptive")
+
+    @cached_property
+    def _refining_solver(self) -> IpoptSolver:
+        # Close to the optimum a large barrier, or a push away from the bounds, leads away from it.
+        return self._ipopt(mu_strategy="monotone", mu_init=1e-6, warm_start_init_point="yes")
+
+    def _ipopt(self, **barrier: Any) -> IpoptSolver:
+        return IpoptSolver(
+            self._program, expand=True, tol=1e-9, max_iter=150, linear_solver="mumps", **barrier
+        )
+
+    @cached_property
+    def _program(self) -> NonlinearProgram:
         m, n, rings = self.segments, self.intervals, self.rings
         speeds, times = ca.MX.sym("speed", rings), ca.MX.sym("T", m)
         inner, controls = ca.MX.sym("X", 6, m * (n - 1)), ca.MX.sym("U", 3, m * n)
@@ -231,16 +253,8 @@ class CourseProgram:
         parameters = ca.vertcat(
             start, ca.vec(centres), ca.vec(normals), end, limits, mean_motion, bound
         )
-        program = NonlinearProgram(
+        return NonlinearProgram(
             variables, ca.sum1(times), ca.vertcat(ca.vec(gaps), ball), low, high, parameters
-        )
-        return IpoptSolver(
-            program,
-            expand=True,
-            tol=1e-9,
-            max_iter=150,
-            mu_strategy="adaptive",
-            linear_solver="mumps",
         )
 
     def _smooth(self, leg: Leg, arcs: Arcs) -> tuple[np.ndarray, ...]:
