@@ -387,7 +387,8 @@ def optimum_is_confirmed(config: Config, results: Path) -> Judgement:
         f"random guesses converge, to times within {max(apart, 1e-12):.0e} s; "
         f"{int(meshes['converged'].sum())} of {len(meshes)} solves on meshes of up to "
         f"{meshes['intervals'].max()} pieces converge, the finer ones shorten the times by "
-        f"{100 * change.max():.2f} % at most; dynamic programming over {name}'s ring speeds gives {dp['time_s']:.3f} s against {whole:.3f} s; of the "
+        f"{100 * change.max():.2f} % at most; dynamic programming "
+        f"over {name}'s ring speeds gives {dp['time_s']:.3f} s against {whole:.3f} s; of the "
         f"{int(indirect['segments'].sum())} segments of the indirect method "
         f"{int(indirect['not_converged'].sum())} do not converge",
     )
