@@ -23,6 +23,7 @@ from smallsat.dynamics.compiled import compiled, compiled_arithmetic
 SOLVED, ITERATION_LIMIT, NUMERICAL = 0, 1, 2
 STATES, CONTROLS = 6, 3
 BOUNDARY = 0.995  # share of the way to the boundary that a step may go
+START_SLACK = 1.0  # scaled, of a violated row in the first iterate
 START_SHARE = 0.9  # a control taken over from the last problem stays this far inside its bounds
 
 
@@ -182,25 +183,34 @@ def _list_rows(program, stages, limits, weights):
 
 @compiled_arithmetic
 def _start_rows(count, rows, mu):
-    """Slack, excess and multiplier of every row on the central path at `mu`."""
+    """Slack, excess and multiplier of every row: complementary at `mu`.
+
+    A row that is violated starts with the slack `START_SLACK` all the same if its weight allows
+    for a multiplier that fits; the steps then remove the difference. Otherwise the row starts on
+    its central path, where t - s = b - g'x and y t = (w - y) s.
+    """
     limits, weights, values = rows[0], rows[1], rows[2]
     slacks, excesses, multipliers = rows[3], rows[4], rows[5]
     for r in range(count):
         w = weights[r]
-        room = w * (limits[r] - values[r])
-        root = np.sqrt(room * room + 4.0 * mu * mu)
-        if room > 0.0:
-            slack = (2.0 * mu + room + root) / (2.0 * w)
-            other = root + room
-            # (root - room + 2 mu) / 2 w without cancellation
-            excess = (4.0 * mu * mu / other + 2.0 * mu) / (2.0 * w)
+        slack = max(limits[r] - values[r], START_SLACK)
+        if 2.0 * mu < w * slack:
+            multiplier = mu / slack
+            excess = mu / (w - multiplier)
         else:
-            excess = (2.0 * mu - room + root) / (2.0 * w)
-            other = root - room
-            slack = (4.0 * mu * mu / other + 2.0 * mu) / (2.0 * w)
+            room = w * (limits[r] - values[r])
+            root = np.sqrt(room * room + 4.0 * mu * mu)
+            # of the two roots of one quadratic, the larger first, so that nothing cancels
+            if room > 0.0:
+                slack = (2.0 * mu + room + root) / (2.0 * w)
+                excess = (2.0 * mu + 4.0 * mu * mu / (root + room)) / (2.0 * w)
+            else:
+                excess = (2.0 * mu - room + root) / (2.0 * w)
+                slack = (2.0 * mu + 4.0 * mu * mu / (root - room)) / (2.0 * w)
+            multiplier = mu / slack
         slacks[r] = slack
         excesses[r] = excess
-        multipliers[r] = mu / slack
+        multipliers[r] = multiplier
 
 
 @compiled_arithmetic
