@@ -15,7 +15,7 @@ from smallsat.rendezvous.phase_programs import BOUNDS, PLANES, program_room, wri
 from smallsat.rendezvous.stage_wise import NUMERICAL, solve, workspace
 
 DOCKED, OUT_OF_TIME = 0, 1
-TOLERANCE = 1e-8  # of the solver, relative
+TOLERANCE = 1e-10  # of the solver, relative
 ITERATION_LIMIT = 60
 SOFTENED = 1e-5  # scaled excess of a hard row that counts as having given way
 

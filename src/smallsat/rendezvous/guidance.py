@@ -137,7 +137,7 @@ class Law:
     norm_weights: np.ndarray | None = None
     norm_terminal_weights: np.ndarray | None = None
     norm_control_weights: np.ndarray | None = None
-    set_point_time: int = AT_HORIZON
+    set_point_time: int = AT_START
     terminal_cone_time: int = AT_HORIZON
     reference_moves: bool = True
     prediction: np.ndarray | None = None
