@@ -71,11 +71,12 @@ class Workspace(NamedTuple):
     states, controls, state_steps, control_steps
         The iterate and its step, (N + 1, 6) and (N, 3).
     boxes
-        For each control, flat: room to the upper and lower bound, multipliers of both, steps of
-        both multipliers, (6, 3 N).
+        For each control, flat: room to the upper and lower bound, multipliers of both, their
+        steps, inverses of the rooms, curvature, (9, 3 N).
     rows
         For each row: b, w, g'x, slack t, excess s, multiplier y, steps of t, s and y, curvature D,
-        (10, R). Rows on states come first, stage by stage, then those on controls.
+        contribution to the gradient, g'dx, (12, R). Rows on states come first, stage by stage,
+        then those on controls.
     curvature, state_rhs, control_rhs, control_curvature
         What the recursion starts from: H plus the rows' part, (N + 1, 6, 6), gradients and the
         controls' diagonal.
@@ -109,8 +110,8 @@ def workspace(stages, planes, bounds):
         np.zeros((stages, CONTROLS)),
         np.zeros((stages + 1, STATES)),
         np.zeros((stages, CONTROLS)),
-        np.zeros((6, CONTROLS * stages)),
-        np.zeros((10, rows)),
+        np.zeros((9, CONTROLS * stages)),
+        np.zeros((12, rows)),
         np.zeros((stages + 1, STATES, STATES)),
         np.zeros((stages + 1, STATES)),
         np.zeros((stages, CONTROLS)),
@@ -257,7 +258,7 @@ def _scatter(program, stages, coefficients, state_rhs, control_rhs):
 @compiled_arithmetic
 def _assemble_curvature(program, stages, work):
     """H plus the rows' D g g' for every stage, and the controls' diagonal."""
-    curvatures, boxes = work.rows[9], work.boxes
+    curvatures, curved = work.rows[9], work.boxes[8]
     bounds = len(program.components)
     r = 0
     for i in range(1, stages + 1):
@@ -284,9 +285,7 @@ def _assemble_curvature(program, stages, work):
     for i in range(stages):
         for k in range(CONTROLS):
             c = CONTROLS * i + k
-            work.control_curvature[i, k] = (
-                program.control_hessian[k] + boxes[2, c] / boxes[0, c] + boxes[3, c] / boxes[1, c]
-            )
+            work.control_curvature[i, k] = program.control_hessian[k] + curved[c]
     if program.control_norm[0] > 0.0:
         for i in range(stages):
             for k in range(CONTROLS):
@@ -524,8 +523,11 @@ def solve(program, stages, start, work, warm, tolerance, iteration_limit):
     limits, weights, values = rows[0], rows[1], rows[2]
     t, s, y = rows[3], rows[4], rows[5]
     dt, ds, dy, curvature = rows[6], rows[7], rows[8], rows[9]
+    push, moved = rows[10], rows[11]
     above, below, upper, lower = boxes[0], boxes[1], boxes[2], boxes[3]
-    dupper, dlower = boxes[4], boxes[5]
+    dupper, dlower, by_above, by_below = boxes[4], boxes[5], boxes[6], boxes[7]
+    curved = boxes[8]
+    v, dv, push_control = u.reshape(-1), du.reshape(-1), work.control_rhs.reshape(-1)
 
     if warm <= 0.0:
         for i in range(stages):
@@ -558,50 +560,50 @@ def solve(program, stages, start, work, warm, tolerance, iteration_limit):
     for iteration in range(iteration_limit):
         if mu <= tolerance * scale and residual <= tolerance:
             return SOLVED, iteration, mu / scale
-        # predictor
+        # predictor: complementarity is aimed at zero
         for r in range(count):
             free = weights[r] - y[r]
             d = y[r] * free / (t[r] * free + s[r] * y[r])
             curvature[r] = d
-            dy[r] = y[r] + d * (values[r] - limits[r])
+            push[r] = y[r] + d * (values[r] - limits[r])
+        for c in range(controls):
+            by_above[c] = 1.0 / above[c]
+            by_below[c] = 1.0 / below[c]
+            curved[c] = upper[c] * by_above[c] + lower[c] * by_below[c]
         _assemble_curvature(program, stages, work)
         _factor(transition, stages, work)
         _objective_gradient(program, stages, work)
-        _scatter(program, stages, dy, work.state_rhs, work.control_rhs)
+        _scatter(program, stages, push, work.state_rhs, work.control_rhs)
         _step(transition, stages, work)
-        _gather(program, stages, dx, du, dt)
+        _gather(program, stages, dx, du, moved)
         worst = 0.0
         for r in range(count):
-            free = weights[r] - y[r]
-            dy[r] = curvature[r] * (dt[r] + values[r] - limits[r])
-            dt[r] = -t[r] - t[r] / y[r] * dy[r]
-            ds[r] = -s[r] + s[r] / free * dy[r]
-            worst = max(worst, -dt[r] / t[r], -ds[r] / s[r])
-            worst = max(worst, -dy[r] / y[r], dy[r] / free)
-        for i in range(stages):
-            for k in range(CONTROLS):
-                c = CONTROLS * i + k
-                step = du[i, k]
-                dupper[c] = -upper[c] + upper[c] / above[c] * step
-                dlower[c] = -lower[c] - lower[c] / below[c] * step
-                worst = max(worst, step / above[c], -step / below[c])
-                worst = max(worst, -dupper[c] / upper[c], -dlower[c] / lower[c])
+            step = curvature[r] * (moved[r] + values[r] - limits[r])
+            by_multiplier, by_free = step / y[r], step / (weights[r] - y[r])
+            dy[r] = step
+            dt[r] = -t[r] - t[r] * by_multiplier
+            ds[r] = -s[r] + s[r] * by_free
+            worst = max(worst, 1.0 + by_multiplier, 1.0 - by_free)
+            worst = max(worst, -by_multiplier, by_free)
+        for c in range(controls):
+            to_above, to_below = dv[c] * by_above[c], dv[c] * by_below[c]
+            dupper[c] = upper[c] * (to_above - 1.0)
+            dlower[c] = -lower[c] * (to_below + 1.0)
+            worst = max(worst, to_above, -to_below)
+            worst = max(worst, 1.0 - to_above, 1.0 + to_below)
         alpha = 1.0 if worst <= 1.0 else 1.0 / worst
         after = 0.0
         for r in range(count):
             yn = y[r] + alpha * dy[r]
             after += yn * (t[r] + alpha * dt[r]) + (weights[r] - yn) * (s[r] + alpha * ds[r])
-        for i in range(stages):
-            for k in range(CONTROLS):
-                c = CONTROLS * i + k
-                step = alpha * du[i, k]
-                after += (upper[c] + alpha * dupper[c]) * (above[c] - step)
-                after += (lower[c] + alpha * dlower[c]) * (below[c] + step)
+        for c in range(controls):
+            step = alpha * dv[c]
+            after += (upper[c] + alpha * dupper[c]) * (above[c] - step)
+            after += (lower[c] + alpha * dlower[c]) * (below[c] + step)
         after /= pairs
         target = after * (after / mu) * (after / mu)
 
-        # corrector: the products of the predictor's steps and the target are taken in
-        _objective_gradient(program, stages, work)
+        # corrector: aimed at the target, with the products of the predictor's steps
         for r in range(count):
             free = weights[r] - y[r]
             ct = target - y[r] * t[r] - dy[r] * dt[r]
@@ -609,37 +611,32 @@ def solve(program, stages, start, work, warm, tolerance, iteration_limit):
             rest = values[r] + t[r] - s[r] - limits[r] + ct / y[r] - cs / free
             dt[r] = ct
             ds[r] = cs
-            dy[r] = y[r] + curvature[r] * rest
-        _scatter(program, stages, dy, work.state_rhs, work.control_rhs)
-        for i in range(stages):
-            for k in range(CONTROLS):
-                c = CONTROLS * i + k
-                cu = target + dupper[c] * du[i, k]
-                cl = target - dlower[c] * du[i, k]
-                work.control_rhs[i, k] += cu / above[c] - cl / below[c]
-                dupper[c] = cu - upper[c] * above[c]
-                dlower[c] = cl - lower[c] * below[c]
+            dy[r] = curvature[r] * rest
+            push[r] = y[r] + dy[r] - push[r]
+        _scatter(program, stages, push, work.state_rhs, work.control_rhs)
+        for c in range(controls):
+            cu = target + dupper[c] * dv[c]
+            cl = target - dlower[c] * dv[c]
+            push_control[c] += cu * by_above[c] - cl * by_below[c]
+            dupper[c] = cu * by_above[c] - upper[c]
+            dlower[c] = cl * by_below[c] - lower[c]
         _step(transition, stages, work)
-        _gather(program, stages, dx, du, rows[9])
+        _gather(program, stages, dx, du, moved)
         worst = 0.0
         for r in range(count):
-            free = weights[r] - y[r]
-            d = y[r] * free / (t[r] * free + s[r] * y[r])
-            rest = values[r] + t[r] - s[r] - limits[r] + dt[r] / y[r] - ds[r] / free
-            step = d * (curvature[r] + rest)
+            step = dy[r] + curvature[r] * moved[r]
+            by_multiplier, by_free = 1.0 / y[r], 1.0 / (weights[r] - y[r])
             dy[r] = step
-            dt[r] = (dt[r] - t[r] * step) / y[r]
-            ds[r] = (ds[r] + s[r] * step) / free
+            dt[r] = (dt[r] - t[r] * step) * by_multiplier
+            ds[r] = (ds[r] + s[r] * step) * by_free
             worst = max(worst, -dt[r] / t[r], -ds[r] / s[r])
-            worst = max(worst, -step / y[r], step / free)
-        for i in range(stages):
-            for k in range(CONTROLS):
-                c = CONTROLS * i + k
-                step = du[i, k]
-                dupper[c] = (dupper[c] + upper[c] * step) / above[c]
-                dlower[c] = (dlower[c] - lower[c] * step) / below[c]
-                worst = max(worst, step / above[c], -step / below[c])
-                worst = max(worst, -dupper[c] / upper[c], -dlower[c] / lower[c])
+            worst = max(worst, -step * by_multiplier, step * by_free)
+        for c in range(controls):
+            to_above, to_below = dv[c] * by_above[c], dv[c] * by_below[c]
+            dupper[c] += upper[c] * to_above
+            dlower[c] -= lower[c] * to_below
+            worst = max(worst, to_above, -to_below)
+            worst = max(worst, -dupper[c] / upper[c], -dlower[c] / lower[c])
         alpha = 1.0 if worst <= BOUNDARY else BOUNDARY / worst
         mu = 0.0
         for r in range(count):
@@ -647,16 +644,14 @@ def solve(program, stages, start, work, warm, tolerance, iteration_limit):
             s[r] += alpha * ds[r]
             y[r] += alpha * dy[r]
             mu += y[r] * t[r] + (weights[r] - y[r]) * s[r]
-        for i in range(stages):
-            for k in range(CONTROLS):
-                c = CONTROLS * i + k
-                step = alpha * du[i, k]
-                u[i, k] += step
-                above[c] -= step
-                below[c] += step
-                upper[c] += alpha * dupper[c]
-                lower[c] += alpha * dlower[c]
-                mu += upper[c] * above[c] + lower[c] * below[c]
+        for c in range(controls):
+            step = alpha * dv[c]
+            v[c] += step
+            above[c] -= step
+            below[c] += step
+            upper[c] += alpha * dupper[c]
+            lower[c] += alpha * dlower[c]
+            mu += upper[c] * above[c] + lower[c] * below[c]
         mu /= pairs
         for i in range(1, stages + 1):
             for k in range(STATES):
