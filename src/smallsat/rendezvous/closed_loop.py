@@ -15,7 +15,7 @@ from smallsat.rendezvous.phase_programs import BOUNDS, PLANES, program_room, wri
 from smallsat.rendezvous.stage_wise import SOLVED, solve, workspace
 
 TOLERANCE = 1e-10  # of the solver, relative
-ITERATION_LIMIT = 60
+ITERATION_LIMIT = 100
 SOFTENED = 1e-5  # scaled excess of a hard row that counts as having given way
 
 
