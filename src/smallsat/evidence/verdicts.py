@@ -38,7 +38,15 @@ VERDICT_COLUMNS = (
     "reason",
 )
 TEXT_COLUMNS = ("case", "component", "printed", "unit")
-RULE_KINDS = ("tolerance", "truncated", "objective", "unreproducible", "context")
+RULE_KINDS = (
+    "tolerance",
+    "truncated",
+    "objective",
+    "inferred",
+    "unreproducible",
+    "context",
+    "pending",
+)
 
 Row = Mapping[str, str]
 Entry = dict[str, Any]
@@ -95,18 +103,24 @@ def judge(
         erratum = erratum_of.get(identifier)
         proof = proof_of[erratum["key"]] if erratum else None
         computed = computed_of.get(identifier, [])
-        if row["kind"] == "input":
+        rule = rule_of.get(identifier, {})
+        if "pending" in rule:
+            outcome = _judge_pending(identifier, computed, rule)
+        elif row["kind"] == "input":
             outcome = _judge_input(row, binding_of.get(identifier), proof, config)
         elif row["kind"] == "timing":
             outcome = _judge_timing(row, computed, proof)
         else:
-            outcome = _judge_result(row, computed, rule_of.get(identifier, {}), proof)
+            outcome = _judge_result(row, computed, rule, proof)
         judged.append({name: row.get(name, "") for name in VERDICT_COLUMNS} | outcome)
     return pd.DataFrame(judged, columns=list(VERDICT_COLUMNS))
 
 
 def pending(rows: Sequence[Row]) -> pd.DataFrame:
-    """The rows of a document whose study is not built yet."""
+    """The rows of a document whose study is not built yet.
+
+    Parts of a built study that are not are named in its ``rules.yaml``, by rules with ``pending``.
+    """
     reason = "the study is not built yet"
     blank = {"computed": nan, "difference": nan, "tolerance": nan}
     return pd.DataFrame(
@@ -145,6 +159,16 @@ def _erratum(proof: Mapping[str, Any], computed: float, printed: Printed | None)
         reason = f"listed as erratum '{proof['key']}', but its proof does not hold"
         return _outcome("mismatch", reason, computed, printed)
     return _outcome("erratum", f"{proof['key']}: {proof['statement']}", computed, printed)
+
+
+def _judge_pending(
+    identifier: str, computed: Sequence[Mapping[str, Any]], rule: Mapping[str, Any]
+) -> dict[str, Any]:
+    if computed:
+        # What is computed must be judged: a pending row cannot hide a wrong value.
+        reason = "listed as pending, but computed: remove it from the pending rows of rules.yaml"
+        return _outcome("mismatch", reason, computed[-1]["computed"])
+    return _outcome(PENDING, f"{rule['pending']}: {rule['reason']}")
 
 
 def _judge_input(
@@ -204,6 +228,8 @@ def _judge_result(
         return _outcome("mismatch", "no computed value", value, printed)
 
     half_unit = printed.half_unit
+    if "inferred" in rule:
+        return _judge_inferred(computed, printed, rule)
     if "tolerance" not in rule or not _is_stricter(rule["tolerance"], printed):
         for one in computed:
             if printed.matches(one["computed"]):
@@ -256,6 +282,26 @@ def _judge_result(
         return _outcome("unreproducible", reason, value, printed, half_unit)
     reason = last["note"] if isinstance(last["note"], str) and last["note"] else "not explained"
     return _outcome("mismatch", reason, value, printed, half_unit)
+
+
+def _judge_inferred(
+    computed: Sequence[Mapping[str, Any]], printed: Printed, rule: Mapping[str, Any]
+) -> dict[str, Any]:
+    """A value that rests on inputs inferred from printed values, perhaps from this very one.
+
+    Equal digits then say that the inferred inputs are consistent with it, never that it reproduces.
+    """
+    nearest = min((one["computed"] for one in computed), key=lambda c: abs(c - printed.value))
+    for one in computed:
+        if printed.matches(one["computed"]):
+            reason = _with_run(
+                f"equal to the printed digits under inference of {rule['inferred']}; "
+                f"{rule['reason']}",
+                one,
+            )
+            return _outcome("consistent", reason, one["computed"], printed, printed.half_unit)
+    reason = f"{rule['reason']}; missing: {rule['inferred']}"
+    return _outcome("unreproducible", reason, nearest, printed, printed.half_unit)
 
 
 def _is_stricter(tolerance: float, printed: Printed) -> bool:
