@@ -143,23 +143,6 @@ def test_unreproducible_says_what_is_missing_and_shows_the_nearest():
     assert verdict(3.24694, rule={"unreproducible": "the seed"}).verdict == "reproduced"
 
 
-def test_equal_digits_under_inference_are_consistent_and_never_reproduced():
-    rule = {"inferred": "the margin"}
-    outcome = verdict(3.24694, rule=rule)
-    assert outcome.verdict == "consistent"
-    assert outcome.reason == "equal to the printed digits under inference of the margin; because"
-    runs = [Observation(ID, 3.24694, run="one reading"), Observation(ID, 3.3, run="another")]
-    assert "(one reading)" in verdict(*runs, rule=rule).reason
-
-
-def test_a_miss_under_inference_is_unreproducible_with_the_nearest():
-    runs = [Observation(ID, 3.25), Observation(ID, 3.3)]
-    outcome = verdict(*runs, rule={"inferred": "the margin"})
-    assert (outcome.verdict, outcome.computed) == ("unreproducible", 3.25)
-    assert outcome.reason == "because; missing: the margin"
-    assert verdict(rule={"inferred": "the margin"}).verdict == "mismatch"
-
-
 @pytest.mark.parametrize("kind", ["input", "result", "timing"])
 def test_a_part_not_built_yet_is_pending_until_something_is_computed(kind):
     rule = {"pending": "chapter 4"}

@@ -1,7 +1,7 @@
 """One verdict for each published number, by rules that are fixed before the run they judge."""
 
 from collections.abc import Mapping, Sequence
-from math import nan
+from math import isnan, nan
 from typing import Any
 
 import pandas as pd
@@ -42,7 +42,7 @@ RULE_KINDS = (
     "tolerance",
     "truncated",
     "objective",
-    "inferred",
+    "interval",
     "unreproducible",
     "context",
     "pending",
@@ -228,8 +228,8 @@ def _judge_result(
         return _outcome("mismatch", "no computed value", value, printed)
 
     half_unit = printed.half_unit
-    if "inferred" in rule:
-        return _judge_inferred(computed, printed, rule)
+    if "interval" in rule:
+        return _judge_interval(printed, computed, rule)
     if "tolerance" not in rule or not _is_stricter(rule["tolerance"], printed):
         for one in computed:
             if printed.matches(one["computed"]):
@@ -284,24 +284,35 @@ def _judge_result(
     return _outcome("mismatch", reason, value, printed, half_unit)
 
 
-def _judge_inferred(
-    computed: Sequence[Mapping[str, Any]], printed: Printed, rule: Mapping[str, Any]
+def _judge_interval(
+    printed: Printed, computed: Sequence[Mapping[str, Any]], rule: Mapping[str, Any]
 ) -> dict[str, Any]:
-    """A value that rests on inputs inferred from printed values, perhaps from this very one.
+    """Consistent or unreproducible: agreement with a sample, or under inferred parameters.
 
-    Equal digits then say that the inferred inputs are consistent with it, never that it reproduces.
+    Equal digits are no reproduction here, for another sample or another inference would give others.
     """
-    nearest = min((one["computed"] for one in computed), key=lambda c: abs(c - printed.value))
     for one in computed:
-        if printed.matches(one["computed"]):
-            reason = _with_run(
-                f"equal to the printed digits under inference of {rule['inferred']}; "
-                f"{rule['reason']}",
-                one,
-            )
-            return _outcome("consistent", reason, one["computed"], printed, printed.half_unit)
-    reason = f"{rule['reason']}; missing: {rule['inferred']}"
-    return _outcome("unreproducible", reason, nearest, printed, printed.half_unit)
+        low, high = _interval(one)
+        if low - printed.half_unit <= printed.value <= high + printed.half_unit:
+            reason = _with_run(f"{rule['reason']}; {_interval_text(one)}", one)
+            return _outcome("consistent", reason, one["computed"], printed)
+    nearest = min(computed, key=lambda one: abs(one["computed"] - printed.value))
+    reason = _with_run(f"{rule['reason']}; {_interval_text(nearest)}", nearest)
+    reason += f"; missing: {rule['interval']}"
+    return _outcome("unreproducible", reason, nearest["computed"], printed)
+
+
+def _interval(one: Mapping[str, Any]) -> tuple[float, float]:
+    return tuple(  # type: ignore[return-value]
+        one["computed"] if isnan(one[end]) else one[end] for end in ("low", "high")
+    )
+
+
+def _interval_text(one: Mapping[str, Any]) -> str:
+    low, high = _interval(one)
+    if low == high:
+        return "compared to the printed digits"
+    return f"interval {low:.4g} to {high:.4g}"
 
 
 def _is_stricter(tolerance: float, printed: Printed) -> bool:
