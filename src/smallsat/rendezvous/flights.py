@@ -34,12 +34,12 @@ def fly_cases(section: Config, folder: Path) -> None:
         flights.append(_flight(case, steps, end[-1], given))
         paths.append(_path(case, steps, given))
         for phase, name in enumerate(PHASES):
-            changes = steps.applied[steps.phase == phase]
+            changes = steps.impulse[steps.phase == phase]
             phases.append(
                 {
                     "flight": case,
                     "phase": name,
-                    "ended": bool(flown.docked[number]) or len(steps.applied[steps.phase > phase]) > 0,
+                    "ended": bool(flown.docked[number]) or len(steps.impulse[steps.phase > phase]) > 0,
                     "steps": len(changes),
                     "time_s": len(changes) * given.sample_times[phase],
                     **{reading: summed(changes, reading) for reading in READINGS},
@@ -55,7 +55,7 @@ def fly_cases(section: Config, folder: Path) -> None:
 
 def _flight(case: str, steps: Steps, end: np.ndarray, given: Law) -> pd.DataFrame:
     table = pd.DataFrame(steps.state, columns=STATE)
-    table[CHANGE] = steps.applied
+    table[CHANGE] = steps.impulse
     table.insert(0, "flight", case)
     table.insert(1, "phase", [PHASES[phase] for phase in steps.phase])
     table.insert(2, "time_s", steps.time)
@@ -80,7 +80,7 @@ def _path(case: str, steps: Steps, given: Law) -> pd.DataFrame:
         if not chosen.any():
             continue
         after = steps.state[chosen].copy()
-        after[:, 3:] += steps.applied[chosen]
+        after[:, 3:] += steps.impulse[chosen]
         for piece in range(PIECES + 1):
             duration = given.sample_times[phase] * piece / PIECES
             part = pd.DataFrame(after @ transition(matrix, duration).T, columns=STATE)
