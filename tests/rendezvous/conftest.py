@@ -94,7 +94,9 @@ def chasers():
     """Twelve states around the target, near the velocity of a stable ellipse."""
     random = np.random.default_rng(7)
     position = random.normal(size=(12, 3))
-    position *= random.uniform(250.0, 2500.0, 12)[:, None] / np.linalg.norm(position, axis=1)[:, None]
+    position *= (
+        random.uniform(250.0, 2500.0, 12)[:, None] / np.linalg.norm(position, axis=1)[:, None]
+    )
     velocity = random.normal(0.0, 0.5, (12, 3))
     velocity[:, 0] += MEAN_MOTION * position[:, 1] / 2
     velocity[:, 1] -= 2 * MEAN_MOTION * position[:, 0]

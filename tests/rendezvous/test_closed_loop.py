@@ -21,7 +21,9 @@ def flown(laws, chaser):
 @pytest.mark.parametrize("case", CASES)
 def test_plain_loop_flies_the_same(laws, chaser, case):
     """NumPy, the document's formulas and Clarabel: same steps; paths within 1 cm, 0.1 mm/s."""
-    plain = reference_loop.fly(laws[case], chaser, lambda program: back_ends.clarabel(program, 1e-9))
+    plain = reference_loop.fly(
+        laws[case], chaser, lambda program: back_ends.clarabel(program, 1e-9)
+    )
     compiled = manoeuvres([laws[case]], chaser, with_steps=True)
     states = compiled.records[0].state
     assert plain.steps == compiled.steps[0].tolist()
@@ -30,7 +32,7 @@ def test_plain_loop_flies_the_same(laws, chaser, case):
 
 
 def test_ledger_closes(flown, laws, law):
-    """Every state follows from the last one, its impulse and the equations; sums are the records'."""
+    """Each state follows from the last one, its impulse and the equations; so do the sums."""
     matrix = clohessy_wiltshire(law.mean_motion)
     for m, steps in enumerate(flown.records):
         before = steps.state.copy()
@@ -159,7 +161,7 @@ def test_constraints_hold_where_no_row_gave_way(law, chasers):
 
 
 def test_constraints_are_also_looked_at_between_samples(law, chaser):
-    """What the programs cannot see: room is lost between samples, and more with burns than without."""
+    """What the programs cannot see: the keep-out zone may be touched between samples."""
     table = constraint_check.follow(law, constraint_check.LinearMotion(law.mean_motion, chaser))
     worst = table.groupby(["phase", "constraint", "place"])["violation"].max()
     far = worst["far", "keep out"]

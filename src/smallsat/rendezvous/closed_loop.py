@@ -1,7 +1,7 @@
 """The three-phase guidance law (Algorithm 1) in closed loop with the motion that it guides.
 
-Errata of Algorithm 1: the far range ends where Hx <= 0 (not x <= Hx) and, since the keep-out forbids
-|x| <= r1, within a margin of r1; the other phases end by a distance, not by x <= r.
+Errata of Algorithm 1: the far range ends where Hx <= 0 (not x <= Hx) and, since the keep-out
+forbids |x| <= r1, within a margin of r1; the other phases end by a distance, not by x <= r.
 """
 
 from dataclasses import dataclass

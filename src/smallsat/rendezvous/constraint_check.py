@@ -1,10 +1,9 @@
-"""How well a manoeuvre keeps the constraints: at the samples, where they are asked for, and between.
+"""How well a manoeuvre keeps the constraints: at samples, where they are asked for, and between.
 
 The programs know the linear prediction and the samples only. Here the motion is followed in short
 pieces, in the linear model or in the full one, with impulses or with burns.
 """
 
-from collections.abc import Callable
 from typing import Protocol
 
 import numpy as np
@@ -173,13 +172,13 @@ def table(section: Config, laws: dict[str, Law], start: np.ndarray) -> pd.DataFr
         around = environment(section["truth"], law.mean_motion, craft["mass_kg"])
         target = target_state(section["truth"], law.mean_motion)
         thruster = (craft["mass_kg"], craft["thruster_N"])
-        motions: dict[str, Callable[[], Motion]] = {
-            "linear": lambda law=law: LinearMotion(law.mean_motion, start),
-            "field, impulses": lambda a=around, t=target: FieldMotion(a, t, start),
-            "field, burns": lambda a=around, t=target, b=thruster: FieldMotion(a, t, start, b),
+        motions: dict[str, Motion] = {
+            "linear": LinearMotion(law.mean_motion, start),
+            "field, impulses": FieldMotion(around, target, start),
+            "field, burns": FieldMotion(around, target, start, thruster),
         }
-        for motion, begin in motions.items():
-            found = follow(law, begin())
+        for motion, moved in motions.items():
+            found = follow(law, moved)
             largest = found.groupby(["phase", "constraint", "place"], sort=False)["violation"].max()
             part = largest.unstack().reindex(columns=["start", "sample", "between"]).reset_index()
             part.insert(0, "flight", name)

@@ -232,7 +232,8 @@ def fly(law: Law, start: Array, solve: Callable[[SparseProgram], Answer]) -> Fli
     if law.norm_weights is not None or law.prediction is not None or law.delay > 0.0:
         raise ValueError("the reference loop knows the document's own quadratic programs only")
     state, time, unsolved = np.array(start, dtype=float), 0.0, 0
-    states, impulses, counts = [state], [], []
+    states, counts = [state], list[int]()
+    impulses: list[Array] = []
     for phase in range(3):
         a, _ = cost_to_go(law, phase)
         plan: list[Array] = []

@@ -13,6 +13,7 @@ from smallsat.rendezvous.guidance import PHASES, Law, settings
 from smallsat.rendezvous.phase_programs import program_room, write_program
 from smallsat.rendezvous.stage_wise import Program
 
+
 @dataclass(frozen=True)
 class Sample:
     """One program of a closed loop: which kind, the program, its stages, start and hard weight."""
@@ -71,7 +72,9 @@ def samples(laws: dict[str, Law], starts: np.ndarray, count: int) -> list[Sample
         flown = manoeuvres([law], starts, phases=phases, with_steps=True)
         for phase in range(phases[1] + 1):
             steps = [
-                (r.state[k], r.time[k]) for r in flown.records for k in np.flatnonzero(r.phase == phase)
+                (r.state[k], r.time[k])
+                for r in flown.records
+                for k in np.flatnonzero(r.phase == phase)
             ]
             chosen = np.unique(np.linspace(0, len(steps) - 1, count).astype(int))
             for state, time in (steps[k] for k in chosen):
@@ -165,6 +168,9 @@ def summary(answers: pd.DataFrame) -> pd.DataFrame:
 def seconds_summary(seconds: pd.DataFrame) -> pd.DataFrame:
     """Median and 99th percentile of the seconds by kind and back end."""
     groups = seconds.groupby(["kind", "back_end"], sort=False)["seconds"]
-    return groups.quantile([0.5, 0.99]).unstack().reset_index().set_axis(
-        ["kind", "back_end", "median_s", "percentile_99_s"], axis=1
+    return (
+        groups.quantile(np.array([0.5, 0.99]))
+        .unstack()
+        .reset_index()
+        .set_axis(["kind", "back_end", "median_s", "percentile_99_s"], axis=1)
     )
