@@ -17,11 +17,14 @@ def figure_files(*stems):
 
 
 def targets(document, *kinds):
-    """Targets of a document's artefacts, in the order of the document."""
+    """Targets of a document's artefacts, in the order of the document; those built so far."""
     return [
         row["target"]
         for row in ARTEFACTS
-        if row["document"] == document and row["kind"] in kinds and row["target"] not in LEFT_OUT
+        if row["document"] == document
+        and row["kind"] in kinds
+        and row["target"]
+        and row["target"] not in LEFT_OUT
     ]
 
 

@@ -38,7 +38,15 @@ VERDICT_COLUMNS = (
     "reason",
 )
 TEXT_COLUMNS = ("case", "component", "printed", "unit")
-RULE_KINDS = ("tolerance", "truncated", "objective", "interval", "unreproducible", "context")
+RULE_KINDS = (
+    "tolerance",
+    "truncated",
+    "objective",
+    "interval",
+    "unreproducible",
+    "context",
+    "pending",
+)
 
 Row = Mapping[str, str]
 Entry = dict[str, Any]
@@ -95,18 +103,24 @@ def judge(
         erratum = erratum_of.get(identifier)
         proof = proof_of[erratum["key"]] if erratum else None
         computed = computed_of.get(identifier, [])
-        if row["kind"] == "input":
+        rule = rule_of.get(identifier, {})
+        if "pending" in rule:
+            outcome = _judge_pending(identifier, computed, rule)
+        elif row["kind"] == "input":
             outcome = _judge_input(row, binding_of.get(identifier), proof, config)
         elif row["kind"] == "timing":
             outcome = _judge_timing(row, computed, proof)
         else:
-            outcome = _judge_result(row, computed, rule_of.get(identifier, {}), proof)
+            outcome = _judge_result(row, computed, rule, proof)
         judged.append({name: row.get(name, "") for name in VERDICT_COLUMNS} | outcome)
     return pd.DataFrame(judged, columns=list(VERDICT_COLUMNS))
 
 
 def pending(rows: Sequence[Row]) -> pd.DataFrame:
-    """The rows of a document whose study is not built yet."""
+    """The rows of a document whose study is not built yet.
+
+    Parts of a built study that are not are named in its ``rules.yaml``, by rules with ``pending``.
+    """
     reason = "the study is not built yet"
     blank = {"computed": nan, "difference": nan, "tolerance": nan}
     return pd.DataFrame(
@@ -145,6 +159,16 @@ def _erratum(proof: Mapping[str, Any], computed: float, printed: Printed | None)
         reason = f"listed as erratum '{proof['key']}', but its proof does not hold"
         return _outcome("mismatch", reason, computed, printed)
     return _outcome("erratum", f"{proof['key']}: {proof['statement']}", computed, printed)
+
+
+def _judge_pending(
+    identifier: str, computed: Sequence[Mapping[str, Any]], rule: Mapping[str, Any]
+) -> dict[str, Any]:
+    if computed:
+        # What is computed must be judged: a pending row cannot hide a wrong value.
+        reason = "listed as pending, but computed: remove it from the pending rows of rules.yaml"
+        return _outcome("mismatch", reason, computed[-1]["computed"])
+    return _outcome(PENDING, f"{rule['pending']}: {rule['reason']}")
 
 
 def _judge_input(
