@@ -90,8 +90,13 @@ def filter_reduces_bounce(config: Config, results: Path) -> Judgement:
     """Section 5.5: delta-v and time with a filter against raw measurements."""
     raw, filtered = _two(results, AS_DOCUMENTED, FILTERED)
     found = [
-        effect(WORDS[q], median((filtered[q] / raw[q] - 1.0).to_numpy()), len(raw),
-               bootstrap(config), 2)  # fmt: skip
+        effect(
+            WORDS[q],
+            median((filtered[q] / raw[q] - 1.0).to_numpy()),
+            len(raw),
+            bootstrap(config),
+            2,
+        )  # fmt: skip
         for q in (DELTA_V, TIME)
     ]
     return judgement(

@@ -367,9 +367,7 @@ def failures_stall_on_boundary(config: Config, results: Path) -> Judgement:
     speed = failed[[f"rendezvous_end_{name}" for name in ("vx_m_s", "vy_m_s", "vz_m_s")]]
     near = np.abs(np.linalg.norm(ends, axis=1) / radius - 1.0) < ON_BOUNDARY
     stalled = near & (np.linalg.norm(speed.to_numpy(), axis=1) < AT_REST_M_S)
-    low, high = proportion_interval(
-        int(stalled.sum()), len(stalled), sweep.bootstrap.confidence
-    )
+    low, high = proportion_interval(int(stalled.sum()), len(stalled), sweep.bootstrap.confidence)
     share = float(stalled.mean())
     found = Effect("share", share - 0.5, low - 0.5, high - 0.5, max(len(stalled), 0))
     outcome: Outcome = "holds" if low > 0.5 else "fails" if high < 0.5 else "undecided"
@@ -459,9 +457,7 @@ def short_approach_horizon_is_infeasible(config: Config, results: Path) -> Judge
     sweep = Sweep(config, results, "approach")
     rows = sweep.rows(sweep.horizons[0], sweep.sample_times[0])
     infeasible = infeasible_share(rows, "approach")
-    found = effect(
-        "share", lambda i: infeasible[i].mean(axis=1), len(infeasible), sweep.bootstrap
-    )
+    found = effect("share", lambda i: infeasible[i].mean(axis=1), len(infeasible), sweep.bootstrap)
     return judgement(
         above([found], 0.5),
         "share of approaches that meet an infeasible program or never end, to be above half",
@@ -505,8 +501,13 @@ def fastest_docking_doubles_actuations(config: Config, results: Path) -> Judgeme
         for t in others:
             a, b = sweep.values(STEPS, (n, first), (n, t))
             found.append(
-                effect(f"N {n}, {first:g} against {t:g} s", median(a / b), len(a),
-                       sweep.bootstrap, len(others) * len(sweep.horizons))  # fmt: skip
+                effect(
+                    f"N {n}, {first:g} against {t:g} s",
+                    median(a / b),
+                    len(a),
+                    sweep.bootstrap,
+                    len(others) * len(sweep.horizons),
+                )  # fmt: skip
             )
     return judgement(above(found, 2.0), "median ratio of actuations, to be above two", found)
 

@@ -57,9 +57,7 @@ def predictive_maximum(values: np.ndarray, tick: float, confidence: float) -> tu
     n, m, tail = len(ordered), PRINTED_SAMPLES, 0.5 * (1.0 - confidence)
     k = np.arange(n)
     # Probability that all m new values lie below the k-th largest of n (from 0), any law.
-    below = np.exp(
-        gammaln(n + 1) - gammaln(n - k) + gammaln(n + m - k) - gammaln(n + m + 1)
-    )
+    below = np.exp(gammaln(n + 1) - gammaln(n - k) + gammaln(n + m - k) - gammaln(n + m + 1))
     unlikely = np.flatnonzero(below <= tail)
     low = ordered[unlikely[0]] if len(unlikely) else ordered[-1]
     return float(low), float(ordered[0] + tick) if n >= m else inf
