@@ -96,7 +96,7 @@ def filter_reduces_bounce(config: Config, results: Path) -> Judgement:
             len(raw),
             bootstrap(config),
             2,
-        )  # fmt: skip
+        )
         for q in (DELTA_V, TIME)
     ]
     return judgement(

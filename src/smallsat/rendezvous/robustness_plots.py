@@ -62,15 +62,15 @@ def averages(disturbed: pd.DataFrame, undisturbed: pd.DataFrame) -> Drawing:
         ecolor=BLUE,
         elinewidth=0.6,
         alpha=0.5,
-        label="mean of the runs from a state, and their deviation",
+        label="runs from a state: mean, deviation",
     )
     calm = data[data["case"] == "undisturbed"]
     axes.plot(calm["mean_time_min"], calm["delta_v_m_s"], "o", ms=3.0, color=GREY,
-              label="the same states without disturbances")  # fmt: skip
+              label="undisturbed")  # fmt: skip
     axes.set(xlabel="mean manoeuvre time [min]", ylabel=r"mean $\Delta v$ [m/s]")
     axes.set_ylim(0, None)
     axes.set_xlim(0, None)
-    axes.legend(loc="upper left")
+    figure.legend(loc="outside upper center", ncols=2)
     columns = ["case", "sample", "mean_time_min", "delta_v_m_s", "deviation_time_min",
                "deviation_delta_v_m_s"]  # fmt: skip
     return figure, data[columns]
@@ -93,26 +93,26 @@ def bounce_map(
     )
     for panel, (name, label, printed) in zip(axes, panels, strict=True):
         grid = table.pivot(index="time_limit_min", columns="end_distance_m", values=name)
-        x, y = np.arange(grid.shape[1]), np.arange(grid.shape[0])
-        image = panel.pcolormesh(x, y, grid.to_numpy(), cmap="cividis", shading="nearest", vmin=0)
-        middle = 0.5 * float(np.nanmax(grid.to_numpy()))
+        values = grid.to_numpy(dtype=float)
+        x, y = range(grid.shape[1]), range(grid.shape[0])
+        image = panel.pcolormesh(x, y, values, cmap="cividis", shading="nearest", vmin=0)
+        middle = 0.5 * float(np.nanmax(values))
         for i in y:
             for j in x:
-                value = float(grid.iloc[i, j])
-                panel.text(j, i, f"{value:.2g}", ha="center", va="center", fontsize=6.5,
+                value = values[i, j]
+                panel.text(j, i, f"{value:.3g}", ha="center", va="center", fontsize=6.5,
                            color="white" if value < middle else "black")  # fmt: skip
-        low, high = float(np.nanmin(grid.to_numpy())), float(np.nanmax(grid.to_numpy()))
+        low, high = float(np.nanmin(values)), float(np.nanmax(values))
         if printed is not None and low < printed < high:
-            panel.contour(x, y, grid.to_numpy(), levels=[printed], colors=VERMILION, linewidths=2)
+            panel.contour(x, y, values, levels=[printed], colors=VERMILION, linewidths=2)
         title = label if printed is None else f"{label}\nprinted: {printed:g}"
         panel.set_title(title, loc="left")
         panel.set_xticks(x, [f"{100 * one:g}" for one in grid.columns])
         panel.set_yticks(y, [f"{one:g}" for one in grid.index])
         panel.set_xlabel(r"docking distance $r_3$ [cm]")
         panel.grid(visible=False)
-        near = np.flatnonzero(np.isclose(grid.columns.to_numpy(dtype=float), baseline))
-        for at in near:
-            panel.axvline(at, color="white", lw=0.8, ls="--")
+        for at in np.flatnonzero(np.isclose(grid.columns.to_numpy(dtype=float), baseline)):
+            panel.get_xticklabels()[at].set_fontweight("bold")
         figure.colorbar(image, ax=panel, location="bottom", shrink=0.9, aspect=25)
     axes[0].set_ylabel("time limit [min]")
     return figure, table

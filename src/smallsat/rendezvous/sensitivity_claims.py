@@ -295,16 +295,15 @@ def savings_diminish(config: Config, results: Path) -> Judgement:
             a, b, c, d = sweep.values(DELTA_V, *[(n, t) for t in (*interval, *last)])
             first, second = (b - a) / a, (d - c) / c
             name = f"N {n}, {interval[0]:g} to {interval[1]:g} s"
+            count = len(others) * len(sweep.horizons)
             found.append(
-                effect(
-                    name,
-                    lambda i, p=first, q=second: np.median(q[i], axis=1) - np.median(p[i], axis=1),
-                    len(a),
-                    sweep.bootstrap,
-                    len(others) * len(sweep.horizons),
-                )
+                effect(name, _medians_differ(first, second), len(a), sweep.bootstrap, count)
             )
     return _rises(found, "median change of delta-v in the last interval less that in")
+
+
+def _medians_differ(first: np.ndarray, second: np.ndarray):
+    return lambda drawn: np.median(second[drawn], axis=1) - np.median(first[drawn], axis=1)
 
 
 def longer_sampling_needs_fewer_actuations(config: Config, results: Path) -> Judgement:
@@ -466,7 +465,7 @@ def short_approach_horizon_is_infeasible(config: Config, results: Path) -> Judge
 
 
 def infeasible_share(rows: pd.DataFrame, phase: str) -> np.ndarray:
-    """Whether each manoeuvre met an infeasible program in a phase, or did not complete it; 0 or 1."""
+    """1 where a manoeuvre met an infeasible program in a phase or did not complete it, else 0."""
     met = (rows[column(phase, "infeasible")] > 0) | ~rows["completed"]
     return met.to_numpy(dtype=float)
 
@@ -500,15 +499,9 @@ def fastest_docking_doubles_actuations(config: Config, results: Path) -> Judgeme
     for n in sweep.horizons:
         for t in others:
             a, b = sweep.values(STEPS, (n, first), (n, t))
-            found.append(
-                effect(
-                    f"N {n}, {first:g} against {t:g} s",
-                    median(a / b),
-                    len(a),
-                    sweep.bootstrap,
-                    len(others) * len(sweep.horizons),
-                )  # fmt: skip
-            )
+            name = f"N {n}, {first:g} against {t:g} s"
+            count = len(others) * len(sweep.horizons)
+            found.append(effect(name, median(a / b), len(a), sweep.bootstrap, count))
     return judgement(above(found, 2.0), "median ratio of actuations, to be above two", found)
 
 

@@ -4,6 +4,8 @@ Each function returns the figure and the table of exactly what it draws.
 """
 
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -20,7 +22,7 @@ from smallsat.rendezvous.study_tables import column, totals
 Drawing = tuple[Figure, pd.DataFrame]
 MINUTE, KM = 60.0, 1e3
 # Hundreds of dots a colour stay readable when each is small and lets the others through.
-DOT = {"s": 7.0, "alpha": 0.45, "linewidths": 0.0}
+DOT: dict[str, Any] = {"s": 7.0, "alpha": 0.45, "linewidths": 0.0}
 QUADRANT_COLOURS = {1: BLUE, 2: GREEN, 3: ORANGE, 4: VERMILION}
 GREY = "#9a9a9a"
 QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
@@ -48,7 +50,7 @@ def by_quadrant(states: pd.DataFrame, rows: pd.DataFrame) -> Drawing:
 def by_distance(states: pd.DataFrame, rows: pd.DataFrame) -> Drawing:
     """Initial positions and cost of the manoeuvre, coloured by initial distance."""
     data = _costs(states, rows)
-    rings = list(pairs(RINGS_KM))
+    rings = list(pairwise(RINGS_KM))
     palette = shades(len(rings))
     ring = np.clip(np.digitize(data["distance_m"] / KM, RINGS_KM) - 1, 0, len(rings) - 1)
     figure, axes = _pair(data, [palette[i] for i in ring])
@@ -105,6 +107,8 @@ def sweep(table: pd.DataFrame, phase: str, horizon: int, sample_times: Sequence[
     axes[0].set_ylim(0, _edge(done[column(phase, "delta_v_m_s")]))
     axes[0].set(xlabel="time of the phase [min]", ylabel=rf"$\Delta v$ of the {phase} phase [m/s]")
     axes[1].set(xlabel="number of control actuations")
+    for name, one in zip("ab", axes, strict=True):
+        one.set_title(f"({name})", loc="left")
     handles = [_handle(colour, label) for label, colour in entries]
     figure.legend(
         handles=handles,
@@ -164,11 +168,6 @@ def summary(sweeps: dict[str, tuple[pd.DataFrame, Sequence[int], Sequence[float]
 def shades(count: int) -> list:
     """Colours of an ordered quantity, from dark blue to light orange."""
     return list(mpl.colormaps["plasma"](np.linspace(0.03, 0.85, count)))
-
-
-def pairs(values: Sequence[float]) -> Iterable[tuple[float, float]]:
-    """Neighbours."""
-    return zip(values[:-1], values[1:], strict=True)
 
 
 def _costs(states: pd.DataFrame, rows: pd.DataFrame) -> pd.DataFrame:

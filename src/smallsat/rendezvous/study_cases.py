@@ -3,7 +3,6 @@
 A case is the baseline with some keys of the configuration changed, flown over some of the phases.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from smallsat.config import Config

@@ -32,7 +32,7 @@ def end_columns(phase: str) -> list[str]:
 # steps whose quadratic program, as stated, had no solution.
 SCHEMA = pa.schema(
     [
-        pa.field("case", pa.string(), nullable=False),
+        pa.field("case", pa.large_string(), nullable=False),
         pa.field("sample", pa.int32(), nullable=False),
         pa.field("run", pa.int32(), nullable=False),
         pa.field("completed", pa.bool_(), nullable=False),
@@ -54,7 +54,7 @@ def empty_rows(count: int) -> dict[str, np.ndarray]:
     """Columns for ``count`` manoeuvres in which nothing has been flown yet."""
     columns: dict[str, np.ndarray] = {}
     for entry in SCHEMA:
-        if pa.types.is_string(entry.type):
+        if pa.types.is_large_string(entry.type):
             columns[entry.name] = np.full(count, "", dtype=object)
         elif "_end_" in entry.name:
             columns[entry.name] = np.full(count, np.nan)
