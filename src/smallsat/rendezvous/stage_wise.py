@@ -71,11 +71,12 @@ class Workspace(NamedTuple):
     states, controls, state_steps, control_steps
         The iterate and its step, (N + 1, 6) and (N, 3).
     boxes
-        For each control, flat: room to the upper and lower bound, multipliers of both, steps of
-        both multipliers, (6, 3 N).
+        For each control, flat: room to the upper and lower bound, multipliers of both, their
+        steps, inverses of the rooms, curvature, (9, 3 N).
     rows
         For each row: b, w, g'x, slack t, excess s, multiplier y, steps of t, s and y, curvature D,
-        (10, R). Rows on states come first, stage by stage, then those on controls.
+        contribution to the gradient, g'dx, (12, R). Rows on states come first, stage by stage,
+        then those on controls.
     curvature, state_rhs, control_rhs, control_curvature
         What the recursion starts from: H plus the rows' part, (N + 1, 6, 6), gradients and the
         controls' diagonal.
@@ -109,8 +110,8 @@ def workspace(stages, planes, bounds):
         np.zeros((stages, CONTROLS)),
         np.zeros((stages + 1, STATES)),
         np.zeros((stages, CONTROLS)),
-        np.zeros((6, CONTROLS * stages)),
-        np.zeros((10, rows)),
+        np.zeros((9, CONTROLS * stages)),
+        np.zeros((12, rows)),
         np.zeros((stages + 1, STATES, STATES)),
         np.zeros((stages + 1, STATES)),
         np.zeros((stages, CONTROLS)),
@@ -257,7 +258,7 @@ def _scatter(program, stages, coefficients, state_rhs, control_rhs):
 @compiled_arithmetic
 def _assemble_curvature(program, stages, work):
     """H plus the rows' D g g' for every stage, and the controls' diagonal."""
-    curvatures, boxes = work.rows[9], work.boxes
+    curvatures, curved = work.rows[9], work.boxes[8]
     bounds = len(program.components)
     r = 0
     for i in range(1, stages + 1):
@@ -284,9 +285,7 @@ def _assemble_curvature(program, stages, work):
     for i in range(stages):
         for k in range(CONTROLS):
             c = CONTROLS * i + k
-            work.control_curvature[i, k] = (
-                program.control_hessian[k] + boxes[2, c] / boxes[0, c] + boxes[3, c] / boxes[1, c]
-            )
+            work.control_curvature[i, k] = program.control_hessian[k] + curved[c]
     if program.control_norm[0] > 0.0:
         for i in range(stages):
             for k in range(CONTROLS):
@@ -295,107 +294,184 @@ def _assemble_curvature(program, stages, work):
 
 
 @compiled_arithmetic
-def _factor(transition, stages, work, cost, product, mapped):
-    """Riccati recursion: gains and inverses of every stage."""
-    for j in range(STATES):
-        for k in range(STATES):
-            cost[j, k] = work.curvature[stages, j, k]
+def _factor(transition, stages, work):
+    """Riccati recursion: gains and inverses of every stage.
+
+    Written out in scalars, which stay in registers: motion in the orbit's plane (x, y, vx, vy) and
+    out of it (z, vz) do not mix in A, but do in the cost-to-go P. For each stage M = A'PA, then
+    the controls' part of M plus their own curvature is inverted.
+    """
+    axx, axy, axu, axv = transition[0, 0], transition[0, 1], transition[0, 3], transition[0, 4]
+    ayx, ayy, ayu, ayv = transition[1, 0], transition[1, 1], transition[1, 3], transition[1, 4]
+    aux, auy, auu, auv = transition[3, 0], transition[3, 1], transition[3, 3], transition[3, 4]
+    avx, avy, avu, avv = transition[4, 0], transition[4, 1], transition[4, 3], transition[4, 4]
+    azz, azw, awz, aww = transition[2, 2], transition[2, 5], transition[5, 2], transition[5, 5]
+    last = work.curvature[stages]
+    pxx, pxy, pxz, pxu, pxv, pxw = last[0, 0], last[0, 1], last[0, 2], last[0, 3], last[0, 4], last[0, 5]
+    pyy, pyz, pyu, pyv, pyw = last[1, 1], last[1, 2], last[1, 3], last[1, 4], last[1, 5]
+    pzz, pzu, pzv, pzw = last[2, 2], last[2, 3], last[2, 4], last[2, 5]
+    puu, puv, puw = last[3, 3], last[3, 4], last[3, 5]
+    pvv, pvw, pww = last[4, 4], last[4, 5], last[5, 5]
     for i in range(stages - 1, -1, -1):
-        for j in range(STATES):
-            for k in range(STATES):
-                total = 0.0
-                for m in range(STATES):
-                    total += cost[j, m] * transition[m, k]
-                product[j, k] = total
-        for j in range(STATES):
-            for k in range(j, STATES):
-                total = 0.0
-                for m in range(STATES):
-                    total += transition[m, j] * product[m, k]
-                mapped[j, k] = total
-                mapped[k, j] = total
-        a = mapped[3, 3] + work.control_curvature[i, 0]
-        b = mapped[3, 4]
-        c = mapped[3, 5]
-        d = mapped[4, 4] + work.control_curvature[i, 1]
-        e = mapped[4, 5]
-        f = mapped[5, 5] + work.control_curvature[i, 2]
-        # inverse through its Cholesky factor
-        la = 1.0 / np.sqrt(a)
-        lb = b * la
-        lc = c * la
-        ld = 1.0 / np.sqrt(d - lb * lb)
-        le = (e - lc * lb) * ld
-        lf = 1.0 / np.sqrt(f - lc * lc - le * le)
-        ba = -lb * la * ld
-        ca = -(lc * la + le * ba) * lf
-        cb = -le * ld * lf
-        inv = work.inverses[i]
-        inv[0] = la * la + ba * ba + ca * ca
-        inv[1] = ba * ld + ca * cb
-        inv[2] = ca * lf
-        inv[3] = ld * ld + cb * cb
-        inv[4] = cb * lf
-        inv[5] = lf * lf
+        # W = P A, row by row, for the columns that M's upper triangle needs
+        wxx = pxx * axx + pxy * ayx + pxu * aux + pxv * avx
+        wyx = pxy * axx + pyy * ayx + pyu * aux + pyv * avx
+        wux = pxu * axx + pyu * ayx + puu * aux + puv * avx
+        wvx = pxv * axx + pyv * ayx + puv * aux + pvv * avx
+        wxy = pxx * axy + pxy * ayy + pxu * auy + pxv * avy
+        wyy = pxy * axy + pyy * ayy + pyu * auy + pyv * avy
+        wuy = pxu * axy + pyu * ayy + puu * auy + puv * avy
+        wvy = pxv * axy + pyv * ayy + puv * auy + pvv * avy
+        wxu = pxx * axu + pxy * ayu + pxu * auu + pxv * avu
+        wyu = pxy * axu + pyy * ayu + pyu * auu + pyv * avu
+        wuu = pxu * axu + pyu * ayu + puu * auu + puv * avu
+        wvu = pxv * axu + pyv * ayu + puv * auu + pvv * avu
+        wxv = pxx * axv + pxy * ayv + pxu * auv + pxv * avv
+        wyv = pxy * axv + pyy * ayv + pyu * auv + pyv * avv
+        wuv = pxu * axv + pyu * ayv + puu * auv + puv * avv
+        wvv = pxv * axv + pyv * ayv + puv * auv + pvv * avv
+        wxz, wxw = pxz * azz + pxw * awz, pxz * azw + pxw * aww
+        wyz, wyw = pyz * azz + pyw * awz, pyz * azw + pyw * aww
+        wuz, wuw = pzu * azz + puw * awz, pzu * azw + puw * aww
+        wvz, wvw = pzv * azz + pvw * awz, pzv * azw + pvw * aww
+        wzz, wzw = pzz * azz + pzw * awz, pzz * azw + pzw * aww
+        wwz, www = pzw * azz + pww * awz, pzw * azw + pww * aww
+        # M = A' W
+        mxx = axx * wxx + ayx * wyx + aux * wux + avx * wvx
+        mxy = axx * wxy + ayx * wyy + aux * wuy + avx * wvy
+        mxz = axx * wxz + ayx * wyz + aux * wuz + avx * wvz
+        mxu = axx * wxu + ayx * wyu + aux * wuu + avx * wvu
+        mxv = axx * wxv + ayx * wyv + aux * wuv + avx * wvv
+        mxw = axx * wxw + ayx * wyw + aux * wuw + avx * wvw
+        myy = axy * wxy + ayy * wyy + auy * wuy + avy * wvy
+        myz = axy * wxz + ayy * wyz + auy * wuz + avy * wvz
+        myu = axy * wxu + ayy * wyu + auy * wuu + avy * wvu
+        myv = axy * wxv + ayy * wyv + auy * wuv + avy * wvv
+        myw = axy * wxw + ayy * wyw + auy * wuw + avy * wvw
+        mzz = azz * wzz + awz * wwz
+        muz = axu * wxz + ayu * wyz + auu * wuz + avu * wvz
+        mvz = axv * wxz + ayv * wyz + auv * wuz + avv * wvz
+        mzw = azz * wzw + awz * www
+        muu = axu * wxu + ayu * wyu + auu * wuu + avu * wvu
+        muv = axu * wxv + ayu * wyv + auu * wuv + avu * wvv
+        muw = axu * wxw + ayu * wyw + auu * wuw + avu * wvw
+        mvv = axv * wxv + ayv * wyv + auv * wuv + avv * wvv
+        mvw = axv * wxw + ayv * wyw + auv * wuw + avv * wvw
+        mww = azw * wzw + aww * www
+        # inverse of the controls' part through its factors L D L'
+        d0 = 1.0 / (muu + work.control_curvature[i, 0])
+        l10, l20 = muv * d0, muw * d0
+        d1 = 1.0 / (mvv + work.control_curvature[i, 1] - l10 * muv)
+        e21 = mvw - l20 * muv
+        l21 = e21 * d1
+        d2 = 1.0 / (mww + work.control_curvature[i, 2] - l20 * muw - l21 * e21)
+        r20 = l10 * l21 - l20
+        i00 = d0 + l10 * l10 * d1 + r20 * r20 * d2
+        i01 = -l10 * d1 - r20 * l21 * d2
+        i02 = r20 * d2
+        i11 = d1 + l21 * l21 * d2
+        i12 = -l21 * d2
+        inverse = work.inverses[i]
+        inverse[0], inverse[1], inverse[2] = i00, i01, i02
+        inverse[3], inverse[4], inverse[5] = i11, i12, d2
+        kux, kvx, kwx = _column(i00, i01, i02, i11, i12, d2, mxu, mxv, mxw)
+        kuy, kvy, kwy = _column(i00, i01, i02, i11, i12, d2, myu, myv, myw)
+        kuz, kvz, kwz = _column(i00, i01, i02, i11, i12, d2, muz, mvz, mzw)
+        kuu, kvu, kwu = _column(i00, i01, i02, i11, i12, d2, muu, muv, muw)
+        kuv, kvv, kwv = _column(i00, i01, i02, i11, i12, d2, muv, mvv, mvw)
+        kuw, kvw, kww = _column(i00, i01, i02, i11, i12, d2, muw, mvw, mww)
         gain = work.gains[i]
-        for k in range(STATES):
-            x, y, z = mapped[3, k], mapped[4, k], mapped[5, k]
-            gain[0, k] = -(inv[0] * x + inv[1] * y + inv[2] * z)
-            gain[1, k] = -(inv[1] * x + inv[3] * y + inv[4] * z)
-            gain[2, k] = -(inv[2] * x + inv[4] * y + inv[5] * z)
-        if i > 0:
-            for j in range(STATES):
-                for k in range(j, STATES):
-                    total = work.curvature[i, j, k] + mapped[j, k]
-                    total += mapped[3, j] * gain[0, k]
-                    total += mapped[4, j] * gain[1, k]
-                    total += mapped[5, j] * gain[2, k]
-                    cost[j, k] = total
-                    cost[k, j] = total
+        gain[0, 0], gain[0, 1], gain[0, 2] = kux, kuy, kuz
+        gain[0, 3], gain[0, 4], gain[0, 5] = kuu, kuv, kuw
+        gain[1, 0], gain[1, 1], gain[1, 2] = kvx, kvy, kvz
+        gain[1, 3], gain[1, 4], gain[1, 5] = kvu, kvv, kvw
+        gain[2, 0], gain[2, 1], gain[2, 2] = kwx, kwy, kwz
+        gain[2, 3], gain[2, 4], gain[2, 5] = kwu, kwv, kww
+        # P of the stage: its own curvature, M and what the controls take off
+        own = work.curvature[i]
+        pxx = own[0, 0] + mxx + mxu * kux + mxv * kvx + mxw * kwx
+        pxy = own[0, 1] + mxy + mxu * kuy + mxv * kvy + mxw * kwy
+        pxz = own[0, 2] + mxz + mxu * kuz + mxv * kvz + mxw * kwz
+        pxu = own[0, 3] + mxu + mxu * kuu + mxv * kvu + mxw * kwu
+        pxv = own[0, 4] + mxv + mxu * kuv + mxv * kvv + mxw * kwv
+        pxw = own[0, 5] + mxw + mxu * kuw + mxv * kvw + mxw * kww
+        pyy = own[1, 1] + myy + myu * kuy + myv * kvy + myw * kwy
+        pyz = own[1, 2] + myz + myu * kuz + myv * kvz + myw * kwz
+        pyu = own[1, 3] + myu + myu * kuu + myv * kvu + myw * kwu
+        pyv = own[1, 4] + myv + myu * kuv + myv * kvv + myw * kwv
+        pyw = own[1, 5] + myw + myu * kuw + myv * kvw + myw * kww
+        pzz = own[2, 2] + mzz + muz * kuz + mvz * kvz + mzw * kwz
+        pzu = own[2, 3] + muz + muz * kuu + mvz * kvu + mzw * kwu
+        pzv = own[2, 4] + mvz + muz * kuv + mvz * kvv + mzw * kwv
+        pzw = own[2, 5] + mzw + muz * kuw + mvz * kvw + mzw * kww
+        puu = own[3, 3] + muu + muu * kuu + muv * kvu + muw * kwu
+        puv = own[3, 4] + muv + muu * kuv + muv * kvv + muw * kwv
+        puw = own[3, 5] + muw + muu * kuw + muv * kvw + muw * kww
+        pvv = own[4, 4] + mvv + muv * kuv + mvv * kvv + mvw * kwv
+        pvw = own[4, 5] + mvw + muv * kuw + mvv * kvw + mvw * kww
+        pww = own[5, 5] + mww + muw * kuw + mvw * kvw + mww * kww
 
 
 @compiled_arithmetic
-def _step(transition, stages, work, costate, mapped):
+def _column(i00, i01, i02, i11, i12, i22, x, y, z):
+    """Minus the symmetric inverse times one column."""
+    return (
+        -(i00 * x + i01 * y + i02 * z),
+        -(i01 * x + i11 * y + i12 * z),
+        -(i02 * x + i12 * y + i22 * z),
+    )
+
+
+@compiled_arithmetic
+def _step(transition, stages, work):
     """Newton step of states and controls for the gradients in the workspace."""
-    for j in range(STATES):
-        costate[j] = work.state_rhs[stages, j]
+    axx, axy, axu, axv = transition[0, 0], transition[0, 1], transition[0, 3], transition[0, 4]
+    ayx, ayy, ayu, ayv = transition[1, 0], transition[1, 1], transition[1, 3], transition[1, 4]
+    aux, auy, auu, auv = transition[3, 0], transition[3, 1], transition[3, 3], transition[3, 4]
+    avx, avy, avu, avv = transition[4, 0], transition[4, 1], transition[4, 3], transition[4, 4]
+    azz, azw, awz, aww = transition[2, 2], transition[2, 5], transition[5, 2], transition[5, 5]
+    rhs = work.state_rhs
+    px, py, pz = rhs[stages, 0], rhs[stages, 1], rhs[stages, 2]
+    pu, pv, pw = rhs[stages, 3], rhs[stages, 4], rhs[stages, 5]
     for i in range(stages - 1, -1, -1):
-        for k in range(STATES):
-            total = 0.0
-            for m in range(STATES):
-                total += transition[m, k] * costate[m]
-            mapped[k] = total
-        x = work.control_rhs[i, 0] + mapped[3]
-        y = work.control_rhs[i, 1] + mapped[4]
-        z = work.control_rhs[i, 2] + mapped[5]
-        inv = work.inverses[i]
-        gain = work.gains[i]
+        mx = axx * px + ayx * py + aux * pu + avx * pv
+        my = axy * px + ayy * py + auy * pu + avy * pv
+        mu = axu * px + ayu * py + auu * pu + avu * pv
+        mv = axv * px + ayv * py + auv * pu + avv * pv
+        mz, mw = azz * pz + awz * pw, azw * pz + aww * pw
+        x, y = work.control_rhs[i, 0] + mu, work.control_rhs[i, 1] + mv
+        z = work.control_rhs[i, 2] + mw
+        inv, gain = work.inverses[i], work.gains[i]
         work.feedforward[i, 0] = -(inv[0] * x + inv[1] * y + inv[2] * z)
         work.feedforward[i, 1] = -(inv[1] * x + inv[3] * y + inv[4] * z)
         work.feedforward[i, 2] = -(inv[2] * x + inv[4] * y + inv[5] * z)
-        for k in range(STATES):
-            costate[k] = (
-                work.state_rhs[i, k]
-                + mapped[k]
-                + gain[0, k] * x
-                + gain[1, k] * y
-                + gain[2, k] * z
-            )
+        px = rhs[i, 0] + mx + gain[0, 0] * x + gain[1, 0] * y + gain[2, 0] * z
+        py = rhs[i, 1] + my + gain[0, 1] * x + gain[1, 1] * y + gain[2, 1] * z
+        pz = rhs[i, 2] + mz + gain[0, 2] * x + gain[1, 2] * y + gain[2, 2] * z
+        pu = rhs[i, 3] + mu + gain[0, 3] * x + gain[1, 3] * y + gain[2, 3] * z
+        pv = rhs[i, 4] + mv + gain[0, 4] * x + gain[1, 4] * y + gain[2, 4] * z
+        pw = rhs[i, 5] + mw + gain[0, 5] * x + gain[1, 5] * y + gain[2, 5] * z
     dx, du = work.state_steps, work.control_steps
-    for k in range(STATES):
-        dx[0, k] = 0.0
+    x, y, z, u, v, w = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(stages):
+        gain = work.gains[i]
         for j in range(CONTROLS):
-            total = work.feedforward[i, j]
-            for k in range(STATES):
-                total += work.gains[i, j, k] * dx[i, k]
-            du[i, j] = total
-        for j in range(STATES):
-            total = 0.0
-            for k in range(3):
-                total += transition[j, k] * dx[i, k]
-                total += transition[j, 3 + k] * (dx[i, 3 + k] + du[i, k])
-            dx[i + 1, j] = total
+            du[i, j] = (
+                work.feedforward[i, j]
+                + (gain[j, 0] * x + gain[j, 1] * y + gain[j, 2] * z)
+                + (gain[j, 3] * u + gain[j, 4] * v + gain[j, 5] * w)
+            )
+        u += du[i, 0]
+        v += du[i, 1]
+        w += du[i, 2]
+        nx = axx * x + axy * y + axu * u + axv * v
+        ny = ayx * x + ayy * y + ayu * u + ayv * v
+        nu = aux * x + auy * y + auu * u + auv * v
+        nv = avx * x + avy * y + avu * u + avv * v
+        z, w = azz * z + azw * w, awz * z + aww * w
+        x, y, u, v = nx, ny, nu, nv
+        dx[i + 1, 0], dx[i + 1, 1], dx[i + 1, 2] = x, y, z
+        dx[i + 1, 3], dx[i + 1, 4], dx[i + 1, 5] = u, v, w
 
 
 @compiled_arithmetic
@@ -447,10 +523,11 @@ def solve(program, stages, start, work, warm, tolerance, iteration_limit):
     limits, weights, values = rows[0], rows[1], rows[2]
     t, s, y = rows[3], rows[4], rows[5]
     dt, ds, dy, curvature = rows[6], rows[7], rows[8], rows[9]
+    push, moved = rows[10], rows[11]
     above, below, upper, lower = boxes[0], boxes[1], boxes[2], boxes[3]
-    dupper, dlower = boxes[4], boxes[5]
-    cost, product = np.empty((STATES, STATES)), np.empty((STATES, STATES))
-    mapped, costate, mapped_costate = np.empty((STATES, STATES)), np.empty(STATES), np.empty(STATES)
+    dupper, dlower, by_above, by_below = boxes[4], boxes[5], boxes[6], boxes[7]
+    curved = boxes[8]
+    v, dv, push_control = u.reshape(-1), du.reshape(-1), work.control_rhs.reshape(-1)
 
     if warm <= 0.0:
         for i in range(stages):
@@ -483,50 +560,50 @@ def solve(program, stages, start, work, warm, tolerance, iteration_limit):
     for iteration in range(iteration_limit):
         if mu <= tolerance * scale and residual <= tolerance:
             return SOLVED, iteration, mu / scale
-        # predictor
+        # predictor: complementarity is aimed at zero
         for r in range(count):
             free = weights[r] - y[r]
             d = y[r] * free / (t[r] * free + s[r] * y[r])
             curvature[r] = d
-            dy[r] = y[r] + d * (values[r] - limits[r])
+            push[r] = y[r] + d * (values[r] - limits[r])
+        for c in range(controls):
+            by_above[c] = 1.0 / above[c]
+            by_below[c] = 1.0 / below[c]
+            curved[c] = upper[c] * by_above[c] + lower[c] * by_below[c]
         _assemble_curvature(program, stages, work)
-        _factor(transition, stages, work, cost, product, mapped)
+        _factor(transition, stages, work)
         _objective_gradient(program, stages, work)
-        _scatter(program, stages, dy, work.state_rhs, work.control_rhs)
-        _step(transition, stages, work, costate, mapped_costate)
-        _gather(program, stages, dx, du, dt)
+        _scatter(program, stages, push, work.state_rhs, work.control_rhs)
+        _step(transition, stages, work)
+        _gather(program, stages, dx, du, moved)
         worst = 0.0
         for r in range(count):
-            free = weights[r] - y[r]
-            dy[r] = curvature[r] * (dt[r] + values[r] - limits[r])
-            dt[r] = -t[r] - t[r] / y[r] * dy[r]
-            ds[r] = -s[r] + s[r] / free * dy[r]
-            worst = max(worst, -dt[r] / t[r], -ds[r] / s[r])
-            worst = max(worst, -dy[r] / y[r], dy[r] / free)
-        for i in range(stages):
-            for k in range(CONTROLS):
-                c = CONTROLS * i + k
-                step = du[i, k]
-                dupper[c] = -upper[c] + upper[c] / above[c] * step
-                dlower[c] = -lower[c] - lower[c] / below[c] * step
-                worst = max(worst, step / above[c], -step / below[c])
-                worst = max(worst, -dupper[c] / upper[c], -dlower[c] / lower[c])
+            step = curvature[r] * (moved[r] + values[r] - limits[r])
+            by_multiplier, by_free = step / y[r], step / (weights[r] - y[r])
+            dy[r] = step
+            dt[r] = -t[r] - t[r] * by_multiplier
+            ds[r] = -s[r] + s[r] * by_free
+            worst = max(worst, 1.0 + by_multiplier, 1.0 - by_free)
+            worst = max(worst, -by_multiplier, by_free)
+        for c in range(controls):
+            to_above, to_below = dv[c] * by_above[c], dv[c] * by_below[c]
+            dupper[c] = upper[c] * (to_above - 1.0)
+            dlower[c] = -lower[c] * (to_below + 1.0)
+            worst = max(worst, to_above, -to_below)
+            worst = max(worst, 1.0 - to_above, 1.0 + to_below)
         alpha = 1.0 if worst <= 1.0 else 1.0 / worst
         after = 0.0
         for r in range(count):
             yn = y[r] + alpha * dy[r]
             after += yn * (t[r] + alpha * dt[r]) + (weights[r] - yn) * (s[r] + alpha * ds[r])
-        for i in range(stages):
-            for k in range(CONTROLS):
-                c = CONTROLS * i + k
-                step = alpha * du[i, k]
-                after += (upper[c] + alpha * dupper[c]) * (above[c] - step)
-                after += (lower[c] + alpha * dlower[c]) * (below[c] + step)
+        for c in range(controls):
+            step = alpha * dv[c]
+            after += (upper[c] + alpha * dupper[c]) * (above[c] - step)
+            after += (lower[c] + alpha * dlower[c]) * (below[c] + step)
         after /= pairs
         target = after * (after / mu) * (after / mu)
 
-        # corrector: the products of the predictor's steps and the target are taken in
-        _objective_gradient(program, stages, work)
+        # corrector: aimed at the target, with the products of the predictor's steps
         for r in range(count):
             free = weights[r] - y[r]
             ct = target - y[r] * t[r] - dy[r] * dt[r]
@@ -534,37 +611,32 @@ def solve(program, stages, start, work, warm, tolerance, iteration_limit):
             rest = values[r] + t[r] - s[r] - limits[r] + ct / y[r] - cs / free
             dt[r] = ct
             ds[r] = cs
-            dy[r] = y[r] + curvature[r] * rest
-        _scatter(program, stages, dy, work.state_rhs, work.control_rhs)
-        for i in range(stages):
-            for k in range(CONTROLS):
-                c = CONTROLS * i + k
-                cu = target + dupper[c] * du[i, k]
-                cl = target - dlower[c] * du[i, k]
-                work.control_rhs[i, k] += cu / above[c] - cl / below[c]
-                dupper[c] = cu - upper[c] * above[c]
-                dlower[c] = cl - lower[c] * below[c]
-        _step(transition, stages, work, costate, mapped_costate)
-        _gather(program, stages, dx, du, rows[9])
+            dy[r] = curvature[r] * rest
+            push[r] = y[r] + dy[r] - push[r]
+        _scatter(program, stages, push, work.state_rhs, work.control_rhs)
+        for c in range(controls):
+            cu = target + dupper[c] * dv[c]
+            cl = target - dlower[c] * dv[c]
+            push_control[c] += cu * by_above[c] - cl * by_below[c]
+            dupper[c] = cu * by_above[c] - upper[c]
+            dlower[c] = cl * by_below[c] - lower[c]
+        _step(transition, stages, work)
+        _gather(program, stages, dx, du, moved)
         worst = 0.0
         for r in range(count):
-            free = weights[r] - y[r]
-            d = y[r] * free / (t[r] * free + s[r] * y[r])
-            rest = values[r] + t[r] - s[r] - limits[r] + dt[r] / y[r] - ds[r] / free
-            step = d * (curvature[r] + rest)
+            step = dy[r] + curvature[r] * moved[r]
+            by_multiplier, by_free = 1.0 / y[r], 1.0 / (weights[r] - y[r])
             dy[r] = step
-            dt[r] = (dt[r] - t[r] * step) / y[r]
-            ds[r] = (ds[r] + s[r] * step) / free
+            dt[r] = (dt[r] - t[r] * step) * by_multiplier
+            ds[r] = (ds[r] + s[r] * step) * by_free
             worst = max(worst, -dt[r] / t[r], -ds[r] / s[r])
-            worst = max(worst, -step / y[r], step / free)
-        for i in range(stages):
-            for k in range(CONTROLS):
-                c = CONTROLS * i + k
-                step = du[i, k]
-                dupper[c] = (dupper[c] + upper[c] * step) / above[c]
-                dlower[c] = (dlower[c] - lower[c] * step) / below[c]
-                worst = max(worst, step / above[c], -step / below[c])
-                worst = max(worst, -dupper[c] / upper[c], -dlower[c] / lower[c])
+            worst = max(worst, -step * by_multiplier, step * by_free)
+        for c in range(controls):
+            to_above, to_below = dv[c] * by_above[c], dv[c] * by_below[c]
+            dupper[c] += upper[c] * to_above
+            dlower[c] -= lower[c] * to_below
+            worst = max(worst, to_above, -to_below)
+            worst = max(worst, -dupper[c] / upper[c], -dlower[c] / lower[c])
         alpha = 1.0 if worst <= BOUNDARY else BOUNDARY / worst
         mu = 0.0
         for r in range(count):
@@ -572,16 +644,14 @@ def solve(program, stages, start, work, warm, tolerance, iteration_limit):
             s[r] += alpha * ds[r]
             y[r] += alpha * dy[r]
             mu += y[r] * t[r] + (weights[r] - y[r]) * s[r]
-        for i in range(stages):
-            for k in range(CONTROLS):
-                c = CONTROLS * i + k
-                step = alpha * du[i, k]
-                u[i, k] += step
-                above[c] -= step
-                below[c] += step
-                upper[c] += alpha * dupper[c]
-                lower[c] += alpha * dlower[c]
-                mu += upper[c] * above[c] + lower[c] * below[c]
+        for c in range(controls):
+            step = alpha * dv[c]
+            v[c] += step
+            above[c] -= step
+            below[c] += step
+            upper[c] += alpha * dupper[c]
+            lower[c] += alpha * dlower[c]
+            mu += upper[c] * above[c] + lower[c] * below[c]
         mu /= pairs
         for i in range(1, stages + 1):
             for k in range(STATES):
