@@ -61,8 +61,9 @@ class Manoeuvres:
         Whether the last phase asked for ended within the time limit, (M,).
     steps
         (M, 3).
-    delta_v, delta_v_axes
-        Sums of the 2-norms and the 1-norms of the applied velocity changes, (M, 3), m/s.
+    delta_v, delta_v_axes, delta_v_plane
+        Sums of the applied velocity changes by the 2-norm, by the 1-norm, and by the 2-norm in the
+        orbit's plane plus the component out of it, (M, 3), m/s.
     ends
         State at the end of each phase, (M, 3, 6).
     end_times
@@ -80,6 +81,7 @@ class Manoeuvres:
     steps: np.ndarray
     delta_v: np.ndarray
     delta_v_axes: np.ndarray
+    delta_v_plane: np.ndarray
     ends: np.ndarray
     end_times: np.ndarray
     softened: np.ndarray
@@ -90,7 +92,7 @@ class Manoeuvres:
 
 
 @compiled
-def _phase_ended(law, phase, state, time, axis, faces):
+def phase_ended(law, phase, state, time, axis, faces):
     """Whether a phase's end condition holds."""
     rotated(law.axis, law.rotation_rate * time, axis)
     tip = law.port if phase == 2 else 0.0
@@ -120,12 +122,49 @@ def _hard_rows_softened(law, phase, rows, count):
 
 
 @compiled
-def _advance(matrix, state, out):
+def moved_by(matrix, state, out):
+    """Fill `out`, (6,), with a transition matrix times a state."""
     for j in range(6):
         total = 0.0
         for k in range(6):
             total += matrix[j, k] * state[k]
         out[j] = total
+
+
+@compiled
+def add_delta_v(delta_v, phase, sums):
+    """Add a velocity change (3,), m/s, to the first three rows of `sums`: three ways to count it.
+
+    The 2-norm, the 1-norm, and the 2-norm in the orbit's plane plus the component out of it.
+    """
+    x, y, z = abs(delta_v[0]), abs(delta_v[1]), abs(delta_v[2])
+    sums[0, phase] += np.sqrt(x * x + y * y + z * z)
+    sums[1, phase] += x + y + z
+    sums[2, phase] += np.sqrt(x * x + y * y) + z
+
+
+@compiled
+def plan(law, phase, state, time, room, work, command):
+    """Solve a phase's program from a state and fill `command`, (3,), with its first control, m/s.
+
+    Returns the solver's status, its iterations, the number of hard rows that gave way, and whether
+    the start of the horizon violated one.
+    """
+    stages = law.horizons[phase]
+    program, outside = write_program(law, phase, state, time, room)
+    scaled = np.empty(6)
+    for k in range(6):
+        scaled[k] = state[k] / law.scales[phase, k]
+    status, iterations, _ = solve(program, stages, scaled, work, 0.0, TOLERANCE, ITERATION_LIMIT)
+    if status == NUMERICAL:
+        command[:] = 0.0
+        return status, iterations, 0, outside
+    rows = 0
+    for i in range(1, stages + 1):
+        rows += program.plane_count[i] + len(program.components)
+    for k in range(3):
+        command[k] = law.control_bounds[phase] * work.controls[0, k]
+    return status, iterations, _hard_rows_softened(law, phase, work.rows, rows), outside
 
 
 @compiled
@@ -135,34 +174,17 @@ def fly(law, start, first_phase, last_phase, room, work, counts, sums, ends, rec
     Returns whether the last phase ended in time, and the number of steps.
     """
     state, moved = start.copy(), np.empty(6)
-    scaled = np.empty(6)
     axis, faces = np.empty(3), np.empty((4, 3))
     command = np.zeros(3)
     time, step = 0.0, 0
     for phase in range(first_phase, last_phase + 1):
-        stages = law.horizons[phase]
-        bound = law.control_bounds[phase]
-        planned = 0  # controls of the last solved plan that were already used
         while True:
             if time + law.sample_times[phase] > law.time_limit:
                 return False, step
-            _advance(law.predictions_before[phase], state, moved)
-            program, outside = write_program(law, phase, moved, time, room)
-            for k in range(6):
-                scaled[k] = moved[k] / law.scales[phase, k]
-            status, iterations, _ = solve(
-                program, stages, scaled, work, 0.0, TOLERANCE, ITERATION_LIMIT
+            moved_by(law.predictions_before[phase], state, moved)
+            status, iterations, softened, outside = plan(
+                law, phase, moved, time, room, work, command
             )
-            softened = 0
-            if status != NUMERICAL:
-                rows = 0
-                for i in range(1, stages + 1):
-                    rows += program.plane_count[i] + len(program.components)
-                softened = _hard_rows_softened(law, phase, work.rows, rows)
-                for k in range(3):
-                    command[k] = bound * work.controls[0, k]
-            else:
-                command[:] = 0.0
             if len(records) > 0:
                 records[step, 0] = time
                 records[step, 1] = phase
@@ -173,10 +195,10 @@ def fly(law, start, first_phase, last_phase, room, work, counts, sums, ends, rec
                 records[step, 15] = iterations
                 records[step, 16] = softened
                 records[step, 17] = 1.0 if outside else 0.0
-            _advance(law.drifts_before[phase], state, moved)
+            moved_by(law.drifts_before[phase], state, moved)
             for k in range(3):
                 moved[3 + k] += command[k]
-            _advance(law.drifts_after[phase], moved, state)
+            moved_by(law.drifts_after[phase], moved, state)
             time += law.sample_times[phase]
             step += 1
             counts[0, phase] += 1
@@ -184,11 +206,10 @@ def fly(law, start, first_phase, last_phase, room, work, counts, sums, ends, rec
             counts[2, phase] += 1 if outside else 0
             counts[3, phase] += 1 if status != 0 else 0
             counts[4, phase] += iterations
-            sums[0, phase] += np.sqrt(command[0] ** 2 + command[1] ** 2 + command[2] ** 2)
-            sums[1, phase] += abs(command[0]) + abs(command[1]) + abs(command[2])
-            sums[2, phase] = time
+            add_delta_v(command, phase, sums)
+            sums[3, phase] = time
             ends[phase] = state
-            if _phase_ended(law, phase, state, time, axis, faces):
+            if phase_ended(law, phase, state, time, axis, faces):
                 break
     return True, step
 
@@ -218,7 +239,7 @@ def manoeuvres(
     longest = int(records["horizons"].max())
     room, work = program_room(longest), workspace(longest, PLANES, BOUNDS)
     counts = np.zeros((number, 5, 3), np.int64)
-    sums, ends = np.zeros((number, 3, 3)), np.full((number, 3, 6), np.nan)
+    sums, ends = np.zeros((number, 4, 3)), np.full((number, 3, 6), np.nan)
     docked = np.zeros(number, bool)
     kept = []
     for m in range(number):
@@ -231,7 +252,7 @@ def manoeuvres(
         if with_steps:
             kept.append(_steps(steps[:used]))
     return Manoeuvres(
-        docked, counts[:, 0], sums[:, 0], sums[:, 1], ends, sums[:, 2],
+        docked, counts[:, 0], sums[:, 0], sums[:, 1], sums[:, 2], ends, sums[:, 3],
         counts[:, 1], counts[:, 2], counts[:, 3], counts[:, 4], kept,
     )  # fmt: skip
 

@@ -466,7 +466,9 @@ def short_approach_horizon_is_infeasible(config: Config, results: Path) -> Judge
 
 def infeasible_share(rows: pd.DataFrame, phase: str) -> np.ndarray:
     """1 where a manoeuvre met an infeasible program in a phase or did not complete it, else 0."""
-    met = (rows[column(phase, "infeasible")] > 0) | ~rows["completed"]
+    met = ~rows["completed"]
+    for kind in ("softened", "outside", "failed"):
+        met = met | (rows[column(phase, kind)] > 0)
     return met.to_numpy(dtype=float)
 
 

@@ -11,7 +11,7 @@ from smallsat.rendezvous.study_cases import PHASES
 
 STATE = ("x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s")
 # What each phase flown has; a phase not flown has no steps, no time, and no end.
-COUNTS = ("steps", "infeasible")
+COUNTS = ("steps", "softened", "outside", "failed")
 SUMS = ("time_s", "delta_v_m_s", "axes_delta_v_m_s")
 KEY = ["case", "sample", "run"]
 
@@ -28,8 +28,9 @@ def end_columns(phase: str) -> list[str]:
 
 # ``completed``: the last phase flown met its end within the time limit. ``end_phase`` is the number
 # of the phase that the manoeuvre ended in, 1 to 3. ``delta_v`` adds Euclidean norms of the
-# commanded velocity changes, ``axes_delta_v`` their absolute components. ``infeasible`` counts
-# steps whose quadratic program, as stated, had no solution.
+# velocity changes, ``axes_delta_v`` their absolute components. Programs are counted in which a hard
+# row had to give way (``softened``), whose first state violated one already (``outside``), and that
+# the solver gave up (``failed``); as stated, the first two kinds have no solution.
 SCHEMA = pa.schema(
     [
         pa.field("case", pa.large_string(), nullable=False),
