@@ -73,7 +73,7 @@ def test_the_same_manoeuvre_twice_is_refused(tmp_path):
     """Shards of two runs with different numbers must not be mixed."""
     whole, *_ = shard_files(tmp_path, 1)
     half, *_ = shard_files(tmp_path, 2)
-    with pytest.raises(InputError, match=r"sample 0, run 0 is there twice"):
+    with pytest.raises(InputError, match=r"case b, sample 0, run 0 is there twice"):
         merge([whole, half], tmp_path / "merged.parquet")
 
 

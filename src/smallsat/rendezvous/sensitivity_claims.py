@@ -361,7 +361,7 @@ def failures_stall_on_boundary(config: Config, results: Path) -> Judgement:
     failed = sweep.table[~sweep.table["completed"]]
     if failed.empty:
         return Judgement("undecided", "no manoeuvre of the sweep fails")
-    radius = config["rendezvous"]["keep_out_radius_m"]
+    radius = config["rendezvous"]["inferred"]["keep_out_m"]
     ends = failed[[f"rendezvous_end_{name}" for name in ("x_m", "y_m", "z_m")]].to_numpy()
     speed = failed[[f"rendezvous_end_{name}" for name in ("vx_m_s", "vy_m_s", "vz_m_s")]]
     near = np.abs(np.linalg.norm(ends, axis=1) / radius - 1.0) < ON_BOUNDARY

@@ -5,9 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+import pyarrow as pa
 
 from smallsat.errors import InputError
-from smallsat.rendezvous.study_tables import KEY, conforming
+from smallsat.rendezvous.study_tables import KEY, SCHEMA, conforming
 from smallsat.results import read_table, write_table
 
 
@@ -26,7 +27,9 @@ def part(count: int, shard: int, shards: int) -> np.ndarray:
     return np.arange(shard - 1, count, shards)
 
 
-def merge(paths: Sequence[Path], output: Path) -> pd.DataFrame:
+def merge(
+    paths: Sequence[Path], output: Path, schema: pa.Schema = SCHEMA, key: Sequence[str] = KEY
+) -> pd.DataFrame:
     """Join shards in one order, whatever their number, and write them as one table.
 
     Raises
@@ -38,26 +41,28 @@ def merge(paths: Sequence[Path], output: Path) -> pd.DataFrame:
     tables = []
     for path in paths:
         try:
-            tables.append(conforming(read_table(path), str(path)))
+            tables.append(conforming(read_table(path), schema, str(path)))
         except InputError as error:
             if not path.exists():
                 raise
             path.unlink()
             raise InputError(f"{error}; it has been deleted for you") from None
     table = pd.concat(tables, ignore_index=True)
-    # The order of the cases is that of the study, which each shard keeps.
-    order = {case: i for i, case in enumerate(dict.fromkeys(table["case"]))}
-    table = table.sort_values(KEY, key=_ranked(order), kind="stable", ignore_index=True)
-    twice = table.duplicated(KEY)
+    table = table.sort_values(list(key), key=_in_order, kind="stable", ignore_index=True)
+    twice = table.duplicated(list(key))
     if twice.any():
-        one = table.loc[twice, KEY].iloc[0]
+        one = ", ".join(f"{name} {table.loc[twice, name].iloc[0]}" for name in key)
         raise InputError(
-            f"{output}: case '{one['case']}', sample {one['sample']}, run {one['run']} is there "
-            f"twice; delete the folder of the shards and run `snakemake` again"
+            f"{output}: {one} is there twice; delete the folder of the shards and run "
+            f"`snakemake` again"
         )
     write_table(table, output)
     return table
 
 
-def _ranked(order: dict[str, int]):
-    return lambda column: column.map(order) if column.name == "case" else column
+def _in_order(column: pd.Series) -> pd.Series:
+    """Cases in the order of the study, which every shard keeps; numbers by size."""
+    if column.name != "case":
+        return column
+    order = {case: i for i, case in enumerate(dict.fromkeys(column))}
+    return column.map(order)

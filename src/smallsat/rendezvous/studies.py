@@ -15,14 +15,23 @@ from smallsat.rendezvous.initial_states import (
     initial_states,
     quadrant,
 )
-from smallsat.rendezvous.parameters import law
+from smallsat.rendezvous.parameters import check
 from smallsat.rendezvous.shards import merge, part
-from smallsat.rendezvous.study_cases import BASELINE, GROUPS, PHASES, Case, cases
-from smallsat.rendezvous.study_runs import fly_cases
-from smallsat.rendezvous.study_tables import STATE, end_columns
+from smallsat.rendezvous.study_cases import BASELINE, GROUPS, PHASES, Case, base, cases
+from smallsat.rendezvous.study_runs import fly_cases, fly_passages
+from smallsat.rendezvous.study_tables import (
+    KEY,
+    PASSAGES,
+    PASSAGES_KEY,
+    SCHEMA,
+    STATE,
+    end_columns,
+)
 from smallsat.results import read_table, write_table
 
-STARTS, DOMAIN = "initial-states.parquet", "domain.parquet"
+# Of chapter 4, and of chapter 5, which has states of its own.
+STARTS, DISTURBED_STARTS = "initial-states.parquet", "disturbed-states.parquet"
+DOMAIN = "domain.parquet"
 
 
 def main() -> None:
@@ -32,7 +41,7 @@ def main() -> None:
 
     states = commands.add_parser("states", help="draw the initial states")
     states.add_argument("--config", required=True, type=json.loads, help="its section, JSON")
-    states.add_argument("--output", required=True, type=Path)
+    states.add_argument("--folder", required=True, type=Path)
 
     shard = commands.add_parser("shard", help="fly one part of the manoeuvres of a group")
     shard.add_argument("group", choices=GROUPS)
@@ -43,6 +52,7 @@ def main() -> None:
     shard.add_argument("--output", required=True, type=Path)
 
     merged = commands.add_parser("merge", help="join the shards of a group")
+    merged.add_argument("group", choices=GROUPS)
     merged.add_argument("shards", nargs="+", type=Path)
     merged.add_argument("--output", required=True, type=Path)
 
@@ -51,49 +61,60 @@ def main() -> None:
 
 
 def _states(arguments: argparse.Namespace) -> None:
-    write_table(states_table(arguments.config), arguments.output)
+    section, folder = arguments.config, arguments.folder
+    studies, robustness = section["studies"], section["studies"]["robustness"]
+    for name, count, seed in (
+        (STARTS, studies["samples"], studies["seed"]),
+        (DISTURBED_STARTS, robustness["states"], robustness["seed"]),
+    ):
+        write_table(states_table(section, count, seed), folder / name)
 
 
 def _shard(arguments: argparse.Namespace) -> None:
-    section, folder = arguments.config, arguments.folder
-    flown = cases(section, arguments.group)
-    starts = [start_table(case, section, folder) for case in flown]
-    own = [table.iloc[part(len(table), arguments.shard, arguments.shards)] for table in starts]
-    write_table(fly_cases(flown, own), arguments.output)
+    section, group = arguments.config, arguments.group
+    check(section)
+    flown = cases(section, group)
+    own = []
+    for case in flown:
+        table = start_table(case, arguments.folder)
+        own.append(table.iloc[part(len(table), arguments.shard, arguments.shards)])
+    if group == "passages":
+        table = fly_passages(section, flown[0], own[0])
+    else:
+        table = fly_cases(section, flown, own)
+    write_table(table, arguments.output)
 
 
 def _merge(arguments: argparse.Namespace) -> None:
-    merge(arguments.shards, arguments.output)
+    schema, key = (PASSAGES, PASSAGES_KEY) if arguments.group == "passages" else (SCHEMA, KEY)
+    merge(arguments.shards, arguments.output, schema, key)
 
 
-def states_table(section: Config) -> pd.DataFrame:
-    """Initial states of the domain study and the sweeps, one a row."""
+def states_table(section: Config, count: int, seed: int) -> pd.DataFrame:
+    """Initial states of a study, one a row, with distance, m, and quadrant."""
     settings = section["studies"]
     nearest, farthest = (1e3 * distance for distance in settings["distance_km"])
-    drawn = initial_states(
-        settings["samples"],
-        settings["seed"],
-        Distribution(nearest, farthest, settings["velocity_deviation_m_s"], IN_PLANE),
-        law(section).mean_motion,
-    )
-    table = pd.DataFrame({"sample": np.arange(len(drawn), dtype=np.int32)})
+    law = Distribution(nearest, farthest, settings["velocity_deviation_m_s"], IN_PLANE)
+    drawn = initial_states(count, seed, law, base(section).mean_motion)
+    table = pd.DataFrame({"sample": np.arange(count, dtype=np.int32)})
     table[list(STATE)] = drawn
     table["distance_m"] = np.linalg.norm(drawn[:, :3], axis=1)
     table["quadrant"] = quadrant(drawn).astype(np.int8)
     return table
 
 
-def start_table(case: Case, section: Config, folder: Path) -> pd.DataFrame:
+def start_table(case: Case, folder: Path) -> pd.DataFrame:
     """Where a case begins: an initial state, or where the baseline ended the phase before."""
     if case.phases[0] == 0:
-        table = read_table(folder / STARTS)
+        table = read_table(folder / (STARTS if case.world is None else DISTURBED_STARTS))
     else:
         flown = read_table(folder / DOMAIN)
         before = end_columns(PHASES[case.phases[0] - 1])
         ended = (flown["case"] == BASELINE) & (flown["end_phase"] > case.phases[0])
         table = flown.loc[ended, ["sample", *before]]
         table = table.rename(columns=dict(zip(before, STATE, strict=True)))
-    return table.assign(run=np.int32(0)).reset_index(drop=True)
+    runs = [table.assign(run=np.int32(run)) for run in range(case.runs)]
+    return pd.concat(runs, ignore_index=True)
 
 
 if __name__ == "__main__":

@@ -12,8 +12,9 @@ from scipy.stats import betabinom
 from smallsat.config import Config
 from smallsat.evidence.effects import effect
 from smallsat.evidence.observation import Observation
-from smallsat.rendezvous.robustness_claims import AS_DOCUMENTED, mean_deviation
+from smallsat.rendezvous.robustness_claims import mean_deviation
 from smallsat.rendezvous.sensitivity_claims import DELTA_V, STEPS, TIME, Sweep, infeasible_share
+from smallsat.rendezvous.study_cases import AS_DOCUMENTED
 from smallsat.rendezvous.study_tables import column
 
 MINUTE = 60.0

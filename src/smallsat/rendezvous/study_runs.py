@@ -7,19 +7,37 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 import pandas as pd
 
+from smallsat.config import Config
 from smallsat.rendezvous.closed_loop import Manoeuvres, manoeuvres
-from smallsat.rendezvous.study_cases import PHASES, Case
-from smallsat.rendezvous.study_tables import SCHEMA, STATE, column, empty_rows, end_columns
+from smallsat.rendezvous.disturbed_loop import disturbed_manoeuvres
+from smallsat.rendezvous.random_streams import stream
+from smallsat.rendezvous.study_cases import MINUTE, PHASES, Case
+from smallsat.rendezvous.study_tables import (
+    PASSAGES,
+    SCHEMA,
+    STATE,
+    column,
+    empty_rows,
+    end_columns,
+)
 
 # Manoeuvres between two lines of progress.
 CHUNK = 50
+# More runs than any state has, so that each run has a stream of its own, whatever their number.
+RUNS = 1_000_000
+# Sums of the loops, by the names that the configuration has for them.
+READINGS = {"2-norm": "delta_v", "1-norm": "delta_v_axes", "plane and normal": "delta_v_plane"}
 
 
-def fly_cases(cases: Sequence[Case], starts: Sequence[pd.DataFrame]) -> pd.DataFrame:
+def fly_cases(
+    section: Config, cases: Sequence[Case], starts: Sequence[pd.DataFrame]
+) -> pd.DataFrame:
     """Fly every case from its starts; progress goes to the standard error stream.
 
     Parameters
     ----------
+    section
+        Of the configuration.
     cases
         Of a group.
     starts
@@ -27,31 +45,76 @@ def fly_cases(cases: Sequence[Case], starts: Sequence[pd.DataFrame]) -> pd.DataF
     """
     parts = [pd.DataFrame(empty_rows(0))[SCHEMA.names]]
     for number, (case, table) in enumerate(zip(cases, starts, strict=True), start=1):
-        began, done = time.perf_counter(), 0
-        for chunk in _chunks(table):
-            parts.append(_fly(case, chunk))
-            done += len(chunk)
-            print(
-                f"case {number} of {len(cases)}, {case.name}: {done} of {len(table)} manoeuvres,"
-                f" {time.perf_counter() - began:.1f} s",
-                file=sys.stderr,
-                flush=True,
-            )
+        for chunk in _chunks(table, f"case {number} of {len(cases)}, {case.name}"):
+            flown = _fly(section, case, chunk)
+            rows = empty_rows(len(chunk))
+            rows["case"][:] = case.name
+            rows["sample"][:] = chunk["sample"]
+            rows["run"][:] = chunk["run"]
+            fill(rows, flown, READINGS[section["inferred"]["readings"]["delta_v"]])
+            parts.append(pd.DataFrame(rows)[SCHEMA.names])
     return pd.concat(parts, ignore_index=True).astype(parts[0].dtypes)
 
 
-def _fly(case: Case, starts: pd.DataFrame) -> pd.DataFrame:
-    flown = manoeuvres([case.law], starts[list(STATE)].to_numpy(), case.phases)
-    rows = empty_rows(len(starts))
-    rows["case"][:] = case.name
-    rows["sample"][:] = starts["sample"]
-    rows["run"][:] = starts["run"]
-    fill(rows, flown)
-    return pd.DataFrame(rows)[SCHEMA.names]
+def fly_passages(section: Config, case: Case, starts: pd.DataFrame) -> pd.DataFrame:
+    """Fly one case and read off what it is with each docking distance and time limit."""
+    settings = section["studies"]["passages"]
+    distances, limits = settings["distances_m"], settings["limits_min"]
+    parts = [_outcomes(np.empty((0, 8)))]
+    for chunk in _chunks(starts, case.name):
+        assert case.world is not None
+        _, passed = disturbed_manoeuvres(
+            case.law,
+            chunk[list(STATE)].to_numpy(),
+            case.world,
+            generators(section, chunk),
+            case.phases,
+            distances,
+            [MINUTE * limit for limit in limits],
+        )
+        rows = []
+        for m in range(len(chunk)):
+            ids = chunk["sample"].iloc[m], chunk["run"].iloc[m]
+            for i, distance in enumerate(distances):
+                for j, limit in enumerate(limits):
+                    docked = passed.times[m, i] <= MINUTE * limit
+                    rows.append(
+                        (*ids, distance, limit, docked)
+                        + (
+                            (passed.times[m, i], passed.delta_v[m, i])
+                            if docked
+                            else (MINUTE * limit, passed.delta_v_at_limits[m, j])
+                        )
+                    )
+        parts.append(_outcomes(np.array(rows)))
+    return pd.concat(parts, ignore_index=True).astype(parts[0].dtypes)
 
 
-def fill(rows: dict[str, np.ndarray], flown: Manoeuvres) -> None:
-    """Write what was flown into columns of `study_tables.empty_rows`, in place."""
+def generators(section: Config, starts: pd.DataFrame) -> list[np.random.Generator]:
+    """Random stream of each manoeuvre, by its state and run alone."""
+    seed = section["studies"]["robustness"]["seed"]
+    # The initial states themselves are drawn with the seed as it is.
+    return [
+        stream(seed, (sample + 1) * RUNS + run)
+        for sample, run in zip(starts["sample"], starts["run"], strict=True)
+    ]
+
+
+def _fly(section: Config, case: Case, starts: pd.DataFrame) -> Manoeuvres:
+    states = starts[list(STATE)].to_numpy()
+    if case.world is None:
+        return manoeuvres([case.law], states, case.phases)
+    flown, _ = disturbed_manoeuvres(
+        case.law, states, case.world, generators(section, starts), case.phases
+    )
+    return flown
+
+
+def fill(rows: dict[str, np.ndarray], flown: Manoeuvres, reading: str) -> None:
+    """Write what was flown into columns of `study_tables.empty_rows`, in place.
+
+    ``reading`` is one of the values of `READINGS`.
+    """
     rows["completed"][:] = flown.docked
     rows["end_phase"][:] = 1 + np.argmax(flown.end_times, axis=1)
     for k, phase in enumerate(PHASES):
@@ -60,12 +123,30 @@ def fill(rows: dict[str, np.ndarray], flown: Manoeuvres) -> None:
         before = flown.end_times[:, :k].max(axis=1, initial=0.0)
         there = flown.steps[:, k] > 0
         rows[column(phase, "time_s")][there] = (flown.end_times[:, k] - before)[there]
-        rows[column(phase, "delta_v_m_s")][:] = flown.delta_v[:, k]
+        rows[column(phase, "delta_v_m_s")][:] = getattr(flown, reading)[:, k]
+        rows[column(phase, "norm_delta_v_m_s")][:] = flown.delta_v[:, k]
         rows[column(phase, "axes_delta_v_m_s")][:] = flown.delta_v_axes[:, k]
         for j, name in enumerate(end_columns(phase)):
             rows[name][:] = flown.ends[:, k, j]
 
 
-def _chunks(table: pd.DataFrame) -> Iterator[pd.DataFrame]:
+def _outcomes(rows: np.ndarray) -> pd.DataFrame:
+    return pd.DataFrame(
+        {
+            entry.name: rows[:, k].astype(entry.type.to_pandas_dtype())
+            for k, entry in enumerate(PASSAGES)
+        }
+    )
+
+
+def _chunks(table: pd.DataFrame, name: str) -> Iterator[pd.DataFrame]:
+    """Parts of a table; what is done so far is said after each."""
+    began = time.perf_counter()
     for first in range(0, len(table), CHUNK):
         yield table.iloc[first : first + CHUNK]
+        print(
+            f"{name}: {min(first + CHUNK, len(table))} of {len(table)} manoeuvres,"
+            f" {time.perf_counter() - began:.1f} s",
+            file=sys.stderr,
+            flush=True,
+        )

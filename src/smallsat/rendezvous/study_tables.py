@@ -12,8 +12,8 @@ from smallsat.rendezvous.study_cases import PHASES
 STATE = ("x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s")
 # What each phase flown has; a phase not flown has no steps, no time, and no end.
 COUNTS = ("steps", "softened", "outside", "failed")
-SUMS = ("time_s", "delta_v_m_s", "axes_delta_v_m_s")
-KEY = ["case", "sample", "run"]
+SUMS = ("time_s", "delta_v_m_s", "norm_delta_v_m_s", "axes_delta_v_m_s")
+KEY = ("case", "sample", "run")
 
 
 def column(phase: str, quantity: str) -> str:
@@ -27,10 +27,11 @@ def end_columns(phase: str) -> list[str]:
 
 
 # ``completed``: the last phase flown met its end within the time limit. ``end_phase`` is the number
-# of the phase that the manoeuvre ended in, 1 to 3. ``delta_v`` adds Euclidean norms of the
-# velocity changes, ``axes_delta_v`` their absolute components. Programs are counted in which a hard
-# row had to give way (``softened``), whose first state violated one already (``outside``), and that
-# the solver gave up (``failed``); as stated, the first two kinds have no solution.
+# of the phase that the manoeuvre ended in, 1 to 3. Velocity changes are added up three ways:
+# ``delta_v`` in the configured reading, ``norm_delta_v`` by Euclidean norms, ``axes_delta_v`` by
+# absolute components. Programs are counted in which a hard row had to give way (``softened``),
+# whose first state violated one already (``outside``), and that the solver gave up (``failed``); as
+# stated, the first two kinds have no solution.
 SCHEMA = pa.schema(
     [
         pa.field("case", pa.large_string(), nullable=False),
@@ -50,6 +51,20 @@ SCHEMA = pa.schema(
     ]
 )
 
+# What one manoeuvre would have been with other docking distances and time limits.
+PASSAGES = pa.schema(
+    [
+        pa.field("sample", pa.int32(), nullable=False),
+        pa.field("run", pa.int32(), nullable=False),
+        pa.field("end_distance_m", pa.float64(), nullable=False),
+        pa.field("time_limit_min", pa.float64(), nullable=False),
+        pa.field("docked", pa.bool_(), nullable=False),
+        pa.field("time_s", pa.float64(), nullable=False),
+        pa.field("delta_v_m_s", pa.float64(), nullable=False),
+    ]
+)
+PASSAGES_KEY = ("sample", "run", "end_distance_m", "time_limit_min")
+
 
 def empty_rows(count: int) -> dict[str, np.ndarray]:
     """Columns for ``count`` manoeuvres in which nothing has been flown yet."""
@@ -64,8 +79,8 @@ def empty_rows(count: int) -> dict[str, np.ndarray]:
     return columns
 
 
-def conforming(table: pd.DataFrame, path: str) -> pd.DataFrame:
-    """The table itself, if its columns are those of the schema, in order and type.
+def conforming(table: pd.DataFrame, schema: pa.Schema, path: str) -> pd.DataFrame:
+    """The table with the columns of the schema, if they are there and of its types.
 
     Raises
     ------
@@ -73,7 +88,7 @@ def conforming(table: pd.DataFrame, path: str) -> pd.DataFrame:
         Naming the file and the first column that differs.
     """
     found = pa.Schema.from_pandas(table, preserve_index=False)
-    for expected in SCHEMA:
+    for expected in schema:
         at = found.get_field_index(expected.name)
         if at < 0 or found.field(at).type != expected.type:
             kind = "missing" if at < 0 else f"of type {found.field(at).type}"
@@ -81,7 +96,7 @@ def conforming(table: pd.DataFrame, path: str) -> pd.DataFrame:
                 f"{path}: column '{expected.name}' is {kind}; needed: {expected.type}; "
                 f"delete the file and run `snakemake` again"
             )
-    return table[SCHEMA.names]
+    return table[schema.names]
 
 
 def totals(table: pd.DataFrame, quantity: str, phases: Sequence[str] = PHASES) -> pd.Series:
