@@ -73,8 +73,8 @@ class Passages(NamedTuple):
     distances, limits
         Docking distances, m, (D,), and time limits, s, (L,).
     times, delta_v
-        When the docking phase first came within each distance, s, and the delta-v until then, by
-        the 2-norm, m/s; (M, D), not a number where it never did.
+        When the docking phase first came within each distance, s, and the delta-v until then, m/s;
+        (M, D), not a number where it never did.
     delta_v_at_limits
         Delta-v of the steps that end by each limit, m/s, (M, L); not a number where the manoeuvre
         ended before.
@@ -108,13 +108,13 @@ def _port_distance(law, state, time):
 @compiled
 def fly_disturbed(
     law, start, phases, disturbances, generator, room, work, counts, sums, ends,
-    distances, limits, passages, at_limits,
+    distances, limits, reading, passages, at_limits,
 ):  # fmt: skip
     """One manoeuvre; fills all arrays from `counts` on. Returns whether the last phase ended.
 
     Arrays are those of `smallsat.rendezvous.closed_loop.fly`; `passages` is (2, D) and `at_limits`
-    (L,). Each step draws eight normal numbers whatever is disturbed, so that variants of a study
-    have them in common.
+    (L,), in which `reading`, a row of `sums`, says how velocity changes are added up. Each step
+    draws eight normal numbers whatever is disturbed, so that variants have them in common.
     """
     pair = pair_from_relative(disturbances.target, start)
     measured, estimate, moved = np.empty(6), np.empty(6), np.empty(6)
@@ -174,7 +174,7 @@ def fly_disturbed(
             counts[3, phase] += 1 if status != 0 else 0
             counts[4, phase] += iterations
             add_delta_v(applied, phase, sums)
-            total += np.sqrt(applied[0] ** 2 + applied[1] ** 2 + applied[2] ** 2)
+            total = sums[reading].sum()
             sums[3, phase] = time
             ends[phase] = truth
             if phase == 2:
@@ -195,6 +195,7 @@ def disturbed_manoeuvres(
     phases: tuple[int, int] = (0, 2),
     distances: Sequence[float] = (),
     limits: Sequence[float] = (),
+    reading: int = 0,
 ) -> tuple[Manoeuvres, Passages]:
     """Fly one manoeuvre a start.
 
@@ -212,6 +213,9 @@ def disturbed_manoeuvres(
         First and last phase.
     distances, limits
         Of `Passages`.
+    reading
+        How delta-v is added up in them: by the 2-norm, the 1-norm, or that of the orbit's plane
+        plus the component out of it (0, 1, 2).
     """
     record = settings([law])[0]
     starts = np.ascontiguousarray(np.atleast_2d(starts), dtype=float)
@@ -227,7 +231,7 @@ def disturbed_manoeuvres(
     for m in range(number):
         docked[m] = fly_disturbed(
             record, starts[m], phases, disturbances, generators[m], room, work,
-            counts[m], sums[m], ends[m], radii, times, passages[m], at_limits[m],
+            counts[m], sums[m], ends[m], radii, times, reading, passages[m], at_limits[m],
         )  # fmt: skip
     flown = Manoeuvres(
         docked, counts[:, 0], sums[:, 0], sums[:, 1], sums[:, 2], ends, sums[:, 3],

@@ -25,7 +25,7 @@ from smallsat.rendezvous.study_tables import (
 CHUNK = 50
 # More runs than any state has, so that each run has a stream of its own, whatever their number.
 RUNS = 1_000_000
-# Sums of the loops, by the names that the configuration has for them.
+# Sums of the loops, in their order, by the names that the configuration has for them.
 READINGS = {"2-norm": "delta_v", "1-norm": "delta_v_axes", "plane and normal": "delta_v_plane"}
 
 
@@ -71,6 +71,7 @@ def fly_passages(section: Config, case: Case, starts: pd.DataFrame) -> pd.DataFr
             case.phases,
             distances,
             [MINUTE * limit for limit in limits],
+            list(READINGS).index(section["inferred"]["readings"]["delta_v"]),
         )
         rows = []
         for m in range(len(chunk)):
