@@ -205,6 +205,6 @@ def own(program: Program, stages: int, start: np.ndarray, tolerance: float) -> A
     planes = program.normals.shape[1]
     work = workspace(stages, planes, len(program.components))
     begin = time.perf_counter()
-    status, iterations, _ = solve(program, stages, start, work, 0.0, tolerance, 100)
+    status, iterations = solve(program, stages, start, work, tolerance, 100)
     seconds = time.perf_counter() - begin
     return Answer(status == SOLVED, work.controls[:stages].copy(), iterations, seconds)

@@ -12,9 +12,8 @@ from smallsat.dynamics.compiled import compiled
 from smallsat.rendezvous.geometry import in_cone, rotated
 from smallsat.rendezvous.guidance import Law, settings
 from smallsat.rendezvous.phase_programs import BOUNDS, PLANES, program_room, write_program
-from smallsat.rendezvous.stage_wise import NUMERICAL, solve, workspace
+from smallsat.rendezvous.stage_wise import SOLVED, solve, workspace
 
-DOCKED, OUT_OF_TIME = 0, 1
 TOLERANCE = 1e-10  # of the solver, relative
 ITERATION_LIMIT = 60
 SOFTENED = 1e-5  # scaled excess of a hard row that counts as having given way
@@ -30,8 +29,8 @@ class Steps:
         At the start of the step, s; 0, 1 or 2.
     state
         Relative state before the control, (K, 6), m and m/s.
-    commanded, applied
-        Velocity changes, (K, 3), m/s.
+    impulse
+        Velocity change, (K, 3), m/s.
     status, iterations
         Of the program.
     softened
@@ -43,8 +42,7 @@ class Steps:
     time: np.ndarray
     phase: np.ndarray
     state: np.ndarray
-    commanded: np.ndarray
-    applied: np.ndarray
+    impulse: np.ndarray
     status: np.ndarray
     iterations: np.ndarray
     softened: np.ndarray
@@ -61,9 +59,9 @@ class Manoeuvres:
         Whether the last phase asked for ended within the time limit, (M,).
     steps
         (M, 3).
-    delta_v, delta_v_axes, delta_v_plane
-        Sums of the applied velocity changes by the 2-norm, by the 1-norm, and by the 2-norm in the
-        orbit's plane plus the component out of it, (M, 3), m/s.
+    delta_v, delta_v_axes, delta_v_planes
+        Sums of the velocity changes' 2-norms, of their 1-norms, and of their 2-norm in the orbit's
+        plane plus what is normal to it, (M, 3), m/s.
     ends
         State at the end of each phase, (M, 3, 6).
     end_times
@@ -81,7 +79,7 @@ class Manoeuvres:
     steps: np.ndarray
     delta_v: np.ndarray
     delta_v_axes: np.ndarray
-    delta_v_plane: np.ndarray
+    delta_v_planes: np.ndarray
     ends: np.ndarray
     end_times: np.ndarray
     softened: np.ndarray
@@ -112,59 +110,64 @@ def phase_ended(law, phase, state, time, axis, faces):
 
 
 @compiled
-def _hard_rows_softened(law, phase, rows, count):
-    """Hard rows whose excess shows."""
+def next_control(law, phase, state, time, room, work, plan, place, command):
+    """The guidance law's control for a state.
+
+    Where the program is not solved, the control that the last solved plan of the phase has for now
+    is taken; where that plan is used up, none.
+
+    Parameters
+    ----------
+    law, phase, state, time
+        `SETTINGS` record; 0, 1 or 2; relative state, m and m/s; s.
+    room, work
+        Of `program_room` and `workspace`.
+    plan, place
+        Controls of the last solved plan, (N, 3), m/s, and its next one and their number, (2,); both
+        kept here from call to call. A phase begins with ``place[:] = 0``.
+    command
+        Receives the velocity change, (3,), m/s.
+
+    Returns
+    -------
+    int, int, int, bool
+        Status and iterations of the solver, hard rows that gave way, whether the start violated a
+        constraint.
+    """
+    stages = law.horizons[phase]
+    bound = law.control_bounds[phase]
+    program, outside = write_program(law, phase, state, time, room)
+    scaled = np.empty(6)
+    for k in range(6):
+        scaled[k] = state[k] / law.scales[phase, k]
+    status, iterations = solve(program, stages, scaled, work, TOLERANCE, ITERATION_LIMIT)
     softened = 0
-    for r in range(count):
-        if rows[1, r] == law.hard_weights[phase] and rows[4, r] > SOFTENED:
-            softened += 1
-    return softened
+    if status == SOLVED:
+        rows = stages * len(program.components)
+        for i in range(1, stages + 1):
+            rows += program.plane_count[i]
+        for r in range(rows):
+            if work.rows[1, r] == law.hard_weights[phase] and work.rows[4, r] > SOFTENED:
+                softened += 1
+        for i in range(stages):
+            for k in range(3):
+                plan[i, k] = bound * work.controls[i, k]
+        place[0], place[1] = 0, stages
+    command[:] = 0.0
+    if place[0] < place[1]:
+        command[:] = plan[place[0]]
+        place[0] += 1
+    return status, iterations, softened, outside
 
 
 @compiled
-def moved_by(matrix, state, out):
-    """Fill `out`, (6,), with a transition matrix times a state."""
+def advance(matrix, state, out):
+    """State after a transition, into `out`."""
     for j in range(6):
         total = 0.0
         for k in range(6):
             total += matrix[j, k] * state[k]
         out[j] = total
-
-
-@compiled
-def add_delta_v(delta_v, phase, sums):
-    """Add a velocity change (3,), m/s, to the first three rows of `sums`: three ways to count it.
-
-    The 2-norm, the 1-norm, and the 2-norm in the orbit's plane plus the component out of it.
-    """
-    x, y, z = abs(delta_v[0]), abs(delta_v[1]), abs(delta_v[2])
-    sums[0, phase] += np.sqrt(x * x + y * y + z * z)
-    sums[1, phase] += x + y + z
-    sums[2, phase] += np.sqrt(x * x + y * y) + z
-
-
-@compiled
-def plan(law, phase, state, time, room, work, command):
-    """Solve a phase's program from a state and fill `command`, (3,), with its first control, m/s.
-
-    Returns the solver's status, its iterations, the number of hard rows that gave way, and whether
-    the start of the horizon violated one.
-    """
-    stages = law.horizons[phase]
-    program, outside = write_program(law, phase, state, time, room)
-    scaled = np.empty(6)
-    for k in range(6):
-        scaled[k] = state[k] / law.scales[phase, k]
-    status, iterations, _ = solve(program, stages, scaled, work, 0.0, TOLERANCE, ITERATION_LIMIT)
-    if status == NUMERICAL:
-        command[:] = 0.0
-        return status, iterations, 0, outside
-    rows = 0
-    for i in range(1, stages + 1):
-        rows += program.plane_count[i] + len(program.components)
-    for k in range(3):
-        command[k] = law.control_bounds[phase] * work.controls[0, k]
-    return status, iterations, _hard_rows_softened(law, phase, work.rows, rows), outside
 
 
 @compiled
@@ -175,43 +178,53 @@ def fly(law, start, first_phase, last_phase, room, work, counts, sums, ends, rec
     """
     state, moved = start.copy(), np.empty(6)
     axis, faces = np.empty(3), np.empty((4, 3))
+    plan, place = np.empty(work.controls.shape), np.zeros(2, np.int64)
     command = np.zeros(3)
     time, step = 0.0, 0
     for phase in range(first_phase, last_phase + 1):
+        place[:] = 0
         while True:
             if time + law.sample_times[phase] > law.time_limit:
                 return False, step
-            moved_by(law.predictions_before[phase], state, moved)
-            status, iterations, softened, outside = plan(
-                law, phase, moved, time, room, work, command
+            advance(law.predictions_before[phase], state, moved)
+            status, iterations, softened, outside = next_control(
+                law, phase, moved, time, room, work, plan, place, command
             )
             if len(records) > 0:
                 records[step, 0] = time
                 records[step, 1] = phase
                 records[step, 2:8] = state
                 records[step, 8:11] = command
-                records[step, 11:14] = command
-                records[step, 14] = status
-                records[step, 15] = iterations
-                records[step, 16] = softened
-                records[step, 17] = 1.0 if outside else 0.0
-            moved_by(law.drifts_before[phase], state, moved)
+                records[step, 11] = status
+                records[step, 12] = iterations
+                records[step, 13] = softened
+                records[step, 14] = 1.0 if outside else 0.0
+            advance(law.drifts_before[phase], state, moved)
             for k in range(3):
                 moved[3 + k] += command[k]
-            moved_by(law.drifts_after[phase], moved, state)
+            advance(law.drifts_after[phase], moved, state)
             time += law.sample_times[phase]
             step += 1
-            counts[0, phase] += 1
-            counts[1, phase] += 1 if softened > 0 else 0
-            counts[2, phase] += 1 if outside else 0
-            counts[3, phase] += 1 if status != 0 else 0
-            counts[4, phase] += iterations
-            add_delta_v(command, phase, sums)
+            add_step(phase, command, status, iterations, softened, outside, counts, sums)
             sums[3, phase] = time
             ends[phase] = state
             if phase_ended(law, phase, state, time, axis, faces):
                 break
     return True, step
+
+
+@compiled
+def add_step(phase, impulse, status, iterations, softened, outside, counts, sums):
+    """Count one step in `counts` (5, 3) and add its velocity change, m/s, to `sums` (4, 3)."""
+    counts[0, phase] += 1
+    counts[1, phase] += 1 if softened > 0 else 0
+    counts[2, phase] += 1 if outside else 0
+    counts[3, phase] += 1 if status != SOLVED else 0
+    counts[4, phase] += iterations
+    level = np.sqrt(impulse[0] ** 2 + impulse[1] ** 2)
+    sums[0, phase] += np.sqrt(level**2 + impulse[2] ** 2)
+    sums[1, phase] += abs(impulse[0]) + abs(impulse[1]) + abs(impulse[2])
+    sums[2, phase] += level + abs(impulse[2])
 
 
 def manoeuvres(
@@ -245,7 +258,7 @@ def manoeuvres(
     for m in range(number):
         law = records[m % len(records)]
         most = int(law["time_limit"] / law["sample_times"].min()) + 1 if with_steps else 0
-        steps = np.zeros((most, 18))
+        steps = np.zeros((most, 15))
         docked[m], used = fly(
             law, starts[m], phases[0], phases[1], room, work, counts[m], sums[m], ends[m], steps
         )
@@ -258,8 +271,8 @@ def manoeuvres(
 
 
 def _steps(table: np.ndarray) -> Steps:
-    whole = table[:, [1, 14, 15, 16]].astype(int)
+    whole = table[:, [1, 11, 12, 13]].astype(int)
     return Steps(
-        table[:, 0], whole[:, 0], table[:, 2:8], table[:, 8:11], table[:, 11:14],
-        whole[:, 1], whole[:, 2], whole[:, 3], table[:, 17] > 0,
+        table[:, 0], whole[:, 0], table[:, 2:8], table[:, 8:11],
+        whole[:, 1], whole[:, 2], whole[:, 3], table[:, 14] > 0,
     )  # fmt: skip

@@ -13,13 +13,8 @@ import numpy as np
 from smallsat.dynamics.compiled import compiled
 from smallsat.rendezvous import actuation_noise, navigation_filter
 from smallsat.rendezvous.actuation_noise import Interval
-from smallsat.rendezvous.closed_loop import (
-    Manoeuvres,
-    add_delta_v,
-    moved_by,
-    phase_ended,
-    plan,
-)
+from smallsat.rendezvous.closed_loop import Manoeuvres, add_step, next_control, phase_ended
+from smallsat.rendezvous.closed_loop import advance as predicted
 from smallsat.rendezvous.guidance import Law, settings
 from smallsat.rendezvous.navigation_filter import FilterModel
 from smallsat.rendezvous.phase_programs import BOUNDS, PLANES, program_room
@@ -121,6 +116,7 @@ def fly_disturbed(
     covariance = np.empty((6, 6))
     command, applied, burn, idle = np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3)
     on_times = np.zeros(3)
+    plan, place = np.empty(work.controls.shape), np.zeros(2, np.int64)
     axis, faces = np.empty(3), np.empty((4, 3))
     w, v = actuation_noise.start(
         disturbances.error_start, generator.standard_normal(), generator.standard_normal()
@@ -133,15 +129,16 @@ def fly_disturbed(
     for phase in range(phases[0], phases[1] + 1):
         duration, delay = law.sample_times[phase], law.delays[phase]
         between = Interval(disturbances.error_transitions[phase], disturbances.error_factors[phase])
+        place[:] = 0
         while True:
             for i in range(len(limits)):
                 if np.isnan(at_limits[i]) and time + duration > limits[i]:
                     at_limits[i] = total
             if time + duration > law.time_limit:
                 return False
-            moved_by(law.predictions_before[phase], estimate, moved)
-            status, iterations, softened, outside = plan(
-                law, phase, moved, time, room, work, command
+            predicted(law.predictions_before[phase], estimate, moved)
+            status, iterations, softened, outside = next_control(
+                law, phase, moved, time, room, work, plan, place, command
             )
             pulse_on_times(
                 command, disturbances.mass, disturbances.force, disturbances.minimum_on_time,
@@ -168,12 +165,7 @@ def fly_disturbed(
                 navigation_filter.update(estimate, covariance, measured, disturbances.filter_model)
             else:
                 estimate[:] = measured
-            counts[0, phase] += 1
-            counts[1, phase] += 1 if softened > 0 else 0
-            counts[2, phase] += 1 if outside else 0
-            counts[3, phase] += 1 if status != 0 else 0
-            counts[4, phase] += iterations
-            add_delta_v(applied, phase, sums)
+            add_step(phase, applied, status, iterations, softened, outside, counts, sums)
             total = sums[reading].sum()
             sums[3, phase] = time
             ends[phase] = truth

@@ -10,7 +10,7 @@ from smallsat.rendezvous.prediction import clohessy_wiltshire, terminal_weight, 
 PHASES = ("far", "mid", "final")
 RENDEZVOUS, APPROACH, DOCKING = 0, 1, 2
 # How far a phase's states reach, in the largest horizon's control, sets the unit of length.
-HARD_WEIGHT = 1e3
+HARD_WEIGHT = 100.0
 
 # Readings of what the document leaves open.
 SHORTEST, NATURAL, CURRENT = 0, 1, 2  # planes' direction where the axis is out of reach
@@ -132,7 +132,7 @@ class Law:
     port: float = 0.5
     plane_rate: float = 1.0
     plane_rule: int = NATURAL
-    switches: tuple[int, int, int] = (ALONG_AXIS, ALONG_AXIS, DISTANCE)
+    switches: tuple[int, int, int] = (ALONG_AXIS, DISTANCE, DISTANCE)
     terminal_weights: tuple[float, float, float] = (0.0, 0.0, 0.0)
     norm_weights: np.ndarray | None = None
     norm_terminal_weights: np.ndarray | None = None

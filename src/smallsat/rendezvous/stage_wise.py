@@ -23,8 +23,8 @@ from smallsat.dynamics.compiled import compiled, compiled_arithmetic
 SOLVED, ITERATION_LIMIT, NUMERICAL = 0, 1, 2
 STATES, CONTROLS = 6, 3
 BOUNDARY = 0.995  # share of the way to the boundary that a step may go
-START_SLACK = 1.0  # scaled, of a violated row in the first iterate
-START_SHARE = 0.9  # a control taken over from the last problem stays this far inside its bounds
+START_SLACK = 0.5  # scaled, of a violated row in the first iterate
+SECOND_ORDER = 0.1  # a predictor that gets less far than this share is not corrected for its products
 
 
 class Program(NamedTuple):
@@ -494,7 +494,7 @@ def _largest_control_gradient(transition, stages, work):
 
 
 @compiled_arithmetic
-def solve(program, stages, start, work, warm, tolerance, iteration_limit):
+def solve(program, stages, start, work, tolerance, iteration_limit):
     """Solve one program.
 
     Parameters
@@ -502,20 +502,17 @@ def solve(program, stages, start, work, warm, tolerance, iteration_limit):
     program, stages, start
         The problem, its number of stages and the state that it starts from, (6,).
     work
-        Receives states and controls; with `warm` above zero its controls are the first iterate.
-    warm
-        Barrier parameter of the first iterate, as a share of the cost's largest gradient in a
-        control; zero starts from no control at all.
+        Receives states and controls.
     tolerance
-        Of the complementarity and the gradient, relative to that gradient.
+        Of the complementarity and of the stationarity, relative to the largest gradient in a
+        control where no control acts.
     iteration_limit
         Most steps.
 
     Returns
     -------
-    int, int, float
-        `SOLVED`, `ITERATION_LIMIT` or `NUMERICAL`; steps taken; largest row excess is left to
-        the caller, the third is the final barrier parameter relative to the gradient.
+    int, int
+        `SOLVED`, `ITERATION_LIMIT` or `NUMERICAL`; steps taken.
     """
     transition = program.transition
     x, u, dx, du = work.states, work.controls, work.state_steps, work.control_steps
@@ -529,37 +526,24 @@ def solve(program, stages, start, work, warm, tolerance, iteration_limit):
     curved = boxes[8]
     v, dv, push_control = u.reshape(-1), du.reshape(-1), work.control_rhs.reshape(-1)
 
-    if warm <= 0.0:
-        for i in range(stages):
-            for k in range(CONTROLS):
-                u[i, k] = 0.0
-        share = 1.0
-    else:
-        for i in range(stages):
-            for k in range(CONTROLS):
-                u[i, k] = min(max(u[i, k], -START_SHARE), START_SHARE)
-        share = warm
+    v[: CONTROLS * stages] = 0.0
     roll_out(transition, start, u, stages, x)
     _list_rows(program, stages, limits, weights)
     count = _gather(program, stages, x, u, values)
     _objective_gradient(program, stages, work)
     scale = max(_largest_control_gradient(transition, stages, work), 1e-300)
-    mu = share * scale
+    mu = scale
     _start_rows(count, rows, mu)
     controls = CONTROLS * stages
-    for i in range(stages):
-        for k in range(CONTROLS):
-            c = CONTROLS * i + k
-            above[c] = 1.0 - u[i, k]
-            below[c] = 1.0 + u[i, k]
-            upper[c] = mu / above[c]
-            lower[c] = mu / below[c]
+    for c in range(controls):
+        above[c], below[c] = 1.0, 1.0
+        upper[c], lower[c] = mu, mu
     pairs = 2.0 * (count + controls)
     residual = 1.0
 
     for iteration in range(iteration_limit):
         if mu <= tolerance * scale and residual <= tolerance:
-            return SOLVED, iteration, mu / scale
+            return SOLVED, iteration
         # predictor: complementarity is aimed at zero
         for r in range(count):
             free = weights[r] - y[r]
@@ -602,12 +586,13 @@ def solve(program, stages, start, work, warm, tolerance, iteration_limit):
             after += (lower[c] + alpha * dlower[c]) * (below[c] + step)
         after /= pairs
         target = after * (after / mu) * (after / mu)
+        second = 1.0 if alpha > SECOND_ORDER else 0.0
 
         # corrector: aimed at the target, with the products of the predictor's steps
         for r in range(count):
             free = weights[r] - y[r]
-            ct = target - y[r] * t[r] - dy[r] * dt[r]
-            cs = target - free * s[r] + dy[r] * ds[r]
+            ct = target - y[r] * t[r] - second * dy[r] * dt[r]
+            cs = target - free * s[r] + second * dy[r] * ds[r]
             rest = values[r] + t[r] - s[r] - limits[r] + ct / y[r] - cs / free
             dt[r] = ct
             ds[r] = cs
@@ -615,8 +600,8 @@ def solve(program, stages, start, work, warm, tolerance, iteration_limit):
             push[r] = y[r] + dy[r] - push[r]
         _scatter(program, stages, push, work.state_rhs, work.control_rhs)
         for c in range(controls):
-            cu = target + dupper[c] * dv[c]
-            cl = target - dlower[c] * dv[c]
+            cu = target + second * dupper[c] * dv[c]
+            cl = target - second * dlower[c] * dv[c]
             push_control[c] += cu * by_above[c] - cl * by_below[c]
             dupper[c] = cu * by_above[c] - upper[c]
             dlower[c] = cl * by_below[c] - lower[c]
@@ -659,5 +644,5 @@ def solve(program, stages, start, work, warm, tolerance, iteration_limit):
         _gather(program, stages, x, u, values)
         residual *= 1.0 - alpha
         if not mu < np.inf:
-            return NUMERICAL, iteration + 1, mu / scale
-    return ITERATION_LIMIT, iteration_limit, mu / scale
+            return NUMERICAL, iteration + 1
+    return ITERATION_LIMIT, iteration_limit

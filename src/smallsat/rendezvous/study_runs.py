@@ -26,7 +26,7 @@ CHUNK = 50
 # More runs than any state has, so that each run has a stream of its own, whatever their number.
 RUNS = 1_000_000
 # Sums of the loops, in their order, by the names that the configuration has for them.
-READINGS = {"2-norm": "delta_v", "1-norm": "delta_v_axes", "plane and normal": "delta_v_plane"}
+READINGS = {"2-norm": "delta_v", "1-norm": "delta_v_axes", "plane and normal": "delta_v_planes"}
 
 
 def fly_cases(
