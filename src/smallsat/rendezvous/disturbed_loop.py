@@ -22,6 +22,9 @@ from smallsat.rendezvous.stage_wise import workspace
 from smallsat.rendezvous.thrusters import pulse_on_times
 from smallsat.rendezvous.truth import Environment, advance, pair_from_relative, relative_state
 
+# Of the thrust's amplitude error w (5.2).
+ERROR_RANGE = (-1.0, 1.0)
+
 
 class Disturbances(NamedTuple):
     """What the law does not know, in SI units.
@@ -144,7 +147,11 @@ def fly_disturbed(
                 command, disturbances.mass, disturbances.force, disturbances.minimum_on_time,
                 on_times,
             )  # fmt: skip
-            size = (1.0 + min(max(w, -1.0), 1.0)) * disturbances.force / disturbances.mass
+            size = (
+                (1.0 + min(max(w, ERROR_RANGE[0]), ERROR_RANGE[1]))
+                * disturbances.force
+                / disturbances.mass
+            )
             for k in range(3):
                 burn[k] = size if command[k] >= 0.0 else -size
                 applied[k] = burn[k] * min(on_times[k], duration - delay)

@@ -3,7 +3,7 @@
 Each function returns the figure and the table of exactly what it draws.
 """
 
-from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -15,25 +15,27 @@ from smallsat.drawing.style import BLACK, BLUE, ORANGE, VERMILION
 Drawing = tuple[Figure, pd.DataFrame]
 MINUTE, HOUR = 60.0, 3600.0
 GREY = "#9a9a9a"
+# Of Section 5.1: the range "within 1 sigma", and the bounds that Figure 5.1 dots.
+STATED_PCT, SIGMAS = 7.0, 3.0
+# Of Section 5.4.
+PRINTED_DELTA_V_M_S, PRINTED_TIME_MIN = 4.25, 19.536
 
 
-def thrust_errors(errors: pd.DataFrame, deviation: float, stated: float) -> Drawing:
-    """Sample paths of the thrust amplitude error, with three times its steady deviation.
+def thrust_errors(errors: pd.DataFrame) -> Drawing:
+    """Sample paths of the thrust's amplitude error, with the steady bounds.
 
-    Columns of ``errors``: ``path``, ``time_s``, ``error`` (of the nominal thrust). ``deviation`` is
-    the steady standard deviation, ``stated`` the printed one; both of the nominal thrust.
+    ``errors`` is what `smallsat.rendezvous.actuation_noise.sampling` returns.
     """
     figure, axes = subplots(figsize=(6.3, 3.2))
-    for _, path in errors.groupby("path"):
-        axes.plot(path["time_s"] / HOUR, 100.0 * path["error"], lw=0.6, color=BLUE, alpha=0.5)
+    for _, path in errors.groupby("sample"):
+        axes.plot(path["time_s"] / HOUR, path["error_percent"], lw=0.6, color=BLUE, alpha=0.5)
+    bound, end = float(errors["three_sigma_percent"].iloc[0]), errors["time_s"].max() / HOUR
     for sign in (-1.0, 1.0):
-        axes.axhline(300.0 * sign * deviation, ls=":", color=BLACK, lw=1.3)
-    axes.axhspan(-100.0 * stated, 100.0 * stated, color=ORANGE, alpha=0.15, lw=0)
-    end = errors["time_s"].max() / HOUR
-    axes.annotate("3 sigma", (end, 300.0 * deviation), ha="right", va="bottom",
-                  textcoords="offset points", xytext=(0, 2))  # fmt: skip
-    axes.annotate("stated range", (0, 100.0 * stated), ha="left", va="bottom", color="#a06a00",
-                  textcoords="offset points", xytext=(3, 2))  # fmt: skip
+        axes.axhline(sign * bound, ls=":", color=BLACK, lw=1.3)
+    axes.axhspan(-STATED_PCT, STATED_PCT, color=ORANGE, alpha=0.15, lw=0)
+    at_end: dict[str, Any] = {"textcoords": "offset points", "va": "bottom", "ha": "right"}
+    axes.annotate(f"{SIGMAS:g} sigma", (end, bound), xytext=(0, 2), **at_end)
+    axes.annotate("stated range", (end, STATED_PCT), xytext=(-2, 2), color="#8a5a00", **at_end)
     axes.set(xlabel="time [h]", ylabel="error of the thrust [%]", xlim=(0, end))
     return figure, errors
 
@@ -76,9 +78,7 @@ def averages(disturbed: pd.DataFrame, undisturbed: pd.DataFrame) -> Drawing:
     return figure, data[columns]
 
 
-def bounce_map(
-    table: pd.DataFrame, printed_delta_v: float, printed_time_min: float, baseline: float
-) -> Drawing:
+def bounce_map(table: pd.DataFrame, baseline: float) -> Drawing:
     """Mean deviations over docking distance and time limit, and the printed ones as lines.
 
     Columns of ``table``: ``end_distance_m``, ``time_limit_min``, ``deviation_delta_v_m_s``,
@@ -87,8 +87,8 @@ def bounce_map(
     """
     figure, axes = subplots(1, 3, figsize=(7.0, 3.1), sharey=True)
     panels = (
-        ("deviation_delta_v_m_s", r"deviation of $\Delta v$ [m/s]", printed_delta_v),
-        ("deviation_time_min", "deviation of time [min]", printed_time_min),
+        ("deviation_delta_v_m_s", r"deviation of $\Delta v$ [m/s]", PRINTED_DELTA_V_M_S),
+        ("deviation_time_min", "deviation of time [min]", PRINTED_TIME_MIN),
         ("docked_share", "share that docks", None),
     )
     for panel, (name, label, printed) in zip(axes, panels, strict=True):
@@ -118,21 +118,19 @@ def bounce_map(
     return figure, table
 
 
-def variants(table: pd.DataFrame, columns: Sequence[tuple[str, str]]) -> Drawing:
-    """Median and quantiles of the paired change that each variant makes, one line a variant.
+def variants(table: pd.DataFrame) -> Drawing:
+    """Change that each variant makes: median and 5 to 95 % of the initial states.
 
-    Columns of ``table``: ``variant``, and for each of ``columns`` (name, label) the quantiles
-    ``<name>_low``, ``<name>_median``, ``<name>_high`` of the change.
+    ``table`` holds one topic of `smallsat.rendezvous.study_summaries.variants`.
     """
-    height = 0.9 + 0.26 * len(table)
-    figure, axes = subplots(1, len(columns), figsize=(6.8, height), sharey=True)
+    figure, axes = subplots(1, 2, figsize=(6.8, 0.9 + 0.26 * len(table)), sharey=True)
     lines = np.arange(len(table))[::-1]
-    for panel, (name, label) in zip(np.atleast_1d(axes), columns, strict=True):
+    for panel, name, label in zip(axes, ("delta_v", "time"), (r"$\Delta v$", "time"), strict=True):
         panel.axvline(0.0, color=BLACK, lw=0.8)
-        panel.hlines(lines, table[f"{name}_low"], table[f"{name}_high"], color=BLUE, lw=1.6)
-        panel.plot(table[f"{name}_median"], lines, "o", ms=4, color=BLUE)
+        panel.hlines(lines, table[f"{name}_low_pct"], table[f"{name}_high_pct"], color=BLUE, lw=1.6)
+        panel.plot(table[f"{name}_median_pct"], lines, "o", ms=4, color=BLUE)
         panel.set_yticks(lines, table["variant"])
-        panel.set_xlabel(label)
+        panel.set_xlabel(f"change of {label} [%]")
         panel.set_ylim(-0.7, len(table) - 0.3)
         panel.grid(axis="y", visible=False)
     return figure, table

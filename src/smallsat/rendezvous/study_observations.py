@@ -12,6 +12,8 @@ from scipy.stats import betabinom
 from smallsat.config import Config
 from smallsat.evidence.effects import effect
 from smallsat.evidence.observation import Observation
+from smallsat.rendezvous.actuation_noise import readings_table
+from smallsat.rendezvous.disturbances import thrust_noise, thrust_reading
 from smallsat.rendezvous.robustness_claims import mean_deviation
 from smallsat.rendezvous.sensitivity_claims import DELTA_V, STEPS, TIME, Sweep, infeasible_share
 from smallsat.rendezvous.study_cases import AS_DOCUMENTED
@@ -27,7 +29,7 @@ DOCKING_TICKS = {TIME: 0.5, STEPS: 50.0, DELTA_V: 0.05}
 def study_observations(config: Config, results: Path) -> list[Observation]:
     """All observations of chapters 4, 5 and 7 that rest on many manoeuvres."""
     found: list[Observation] = []
-    for one in (_failures, _smallest_saving, _infeasible, _axes, _deviations):
+    for one in (_failures, _smallest_saving, _infeasible, _axes, _thrust_error, _deviations):
         try:
             found += one(config, results)
         except LookupError:
@@ -169,6 +171,19 @@ def _axis(
                       high=table[:, 5].min())  # fmt: skip
     yield Observation(f"{name}/max", table[:, 0].max(), run, low=table[:, 1].max(),
                       high=table[:, 2].max())  # fmt: skip
+
+
+def _thrust_error(config: Config, results: Path) -> Iterator[Observation]:
+    """Steady deviation of Eq. 5.3; the reading that is flown comes last."""
+    section = config["rendezvous"]
+    readings = readings_table(thrust_noise(section)).set_index("reading")["steady_state_percent"]
+    flown = thrust_reading(section)
+    for reading in (*readings.index.drop(flown), flown):
+        yield Observation(
+            "rendezvous/section-5-1/1-sigma-thrust-amplitude-error-range",
+            float(readings[reading]),
+            f"eta_w and eta_v read as {reading.replace('-', ' and ')}",
+        )
 
 
 def _deviations(config: Config, results: Path) -> Iterator[Observation]:
