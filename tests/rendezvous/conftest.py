@@ -1,9 +1,15 @@
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 from hypothesis import settings
 
 from smallsat.rendezvous.environment import environment, target_state
 from smallsat.rendezvous.guidance import Law
+
+# Made-up tables, which several test files use.
+sys.path.insert(0, str(Path(__file__).parent))
 
 # The first call of a compiled function compiles it.
 settings.register_profile("compiled", deadline=None)
