@@ -69,7 +69,9 @@ def measure() -> dict[str, float]:
     begin = time.process_time()
     reference_loop.fly(given, start_state(section), solve)
     plain = time.process_time() - begin
-    own, _ = _timed(lambda count: manoeuvres([given], np.tile(start_state(section), (count, 1))), 20)
+    own, _ = _timed(
+        lambda count: manoeuvres([given], np.tile(start_state(section), (count, 1))), 20
+    )
     return found | {
         "plain_osqp_manoeuvres_per_s": 1.0 / plain,
         "plain_osqp_solving_share": solving / plain,

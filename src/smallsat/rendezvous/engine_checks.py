@@ -33,9 +33,7 @@ def compare_solvers(section: Config, folder: Path) -> None:
     laws = {"QP": law(section), "1-norm": law(section, "lp")}
     nearest, farthest = (KM * distance for distance in studies["distance_km"])
     spread = Distribution(nearest, farthest, studies["velocity_deviation_m_s"], IN_PLANE)
-    starts = initial_states(
-        size["manoeuvres"], studies["seed"], spread, laws["QP"].mean_motion
-    )
+    starts = initial_states(size["manoeuvres"], studies["seed"], spread, laws["QP"].mean_motion)
     given = solver_comparison.samples(laws, starts, size["programs"])
     answers, seconds = solver_comparison.compare(given)
     write_table(solver_comparison.summary(answers), folder / "solvers.csv")
