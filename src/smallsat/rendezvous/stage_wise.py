@@ -573,21 +573,23 @@ def solve(program, stages, start, work, tolerance, iteration_limit):
         _scatter(program, stages, push, work.state_rhs, work.control_rhs)
         _step(transition, stages, work)
         _gather(program, stages, dx, du, moved)
-        worst = 0.0
+        # four maxima side by side, none of which waits for another
+        first, second, third, fourth = 0.0, 0.0, 0.0, 0.0
         for r in range(count):
             step = curvature[r] * (moved[r] + values[r] - limits[r])
             by_multiplier, by_free = step / y[r], step / (weights[r] - y[r])
             dy[r] = step
             dt[r] = -t[r] - t[r] * by_multiplier
             ds[r] = -s[r] + s[r] * by_free
-            worst = max(worst, 1.0 + by_multiplier, 1.0 - by_free)
-            worst = max(worst, -by_multiplier, by_free)
+            first, second = max(first, 1.0 + by_multiplier), max(second, 1.0 - by_free)
+            third, fourth = max(third, -by_multiplier), max(fourth, by_free)
         for c in range(controls):
             to_above, to_below = dv[c] * by_above[c], dv[c] * by_below[c]
             dupper[c] = upper[c] * (to_above - 1.0)
             dlower[c] = -lower[c] * (to_below + 1.0)
-            worst = max(worst, to_above, -to_below)
-            worst = max(worst, 1.0 - to_above, 1.0 + to_below)
+            first, second = max(first, to_above), max(second, -to_below)
+            third, fourth = max(third, 1.0 - to_above), max(fourth, 1.0 + to_below)
+        worst = max(first, second, third, fourth)
         alpha = 1.0 if worst <= 1.0 else 1.0 / worst
         after = 0.0
         for r in range(count):
@@ -619,21 +621,22 @@ def solve(program, stages, start, work, tolerance, iteration_limit):
             dlower[c] = cl * by_below[c] - lower[c]
         _step(transition, stages, work)
         _gather(program, stages, dx, du, moved)
-        worst = 0.0
+        first, second, third, fourth = 0.0, 0.0, 0.0, 0.0
         for r in range(count):
             step = dy[r] + curvature[r] * moved[r]
             by_multiplier, by_free = 1.0 / y[r], 1.0 / (weights[r] - y[r])
             dy[r] = step
             dt[r] = (dt[r] - t[r] * step) * by_multiplier
             ds[r] = (ds[r] + s[r] * step) * by_free
-            worst = max(worst, -dt[r] / t[r], -ds[r] / s[r])
-            worst = max(worst, -step * by_multiplier, step * by_free)
+            first, second = max(first, -dt[r] / t[r]), max(second, -ds[r] / s[r])
+            third, fourth = max(third, -step * by_multiplier), max(fourth, step * by_free)
         for c in range(controls):
             to_above, to_below = dv[c] * by_above[c], dv[c] * by_below[c]
             dupper[c] += upper[c] * to_above
             dlower[c] -= lower[c] * to_below
-            worst = max(worst, to_above, -to_below)
-            worst = max(worst, -dupper[c] / upper[c], -dlower[c] / lower[c])
+            first, second = max(first, to_above), max(second, -to_below)
+            third, fourth = max(third, -dupper[c] / upper[c]), max(fourth, -dlower[c] / lower[c])
+        worst = max(first, second, third, fourth)
         alpha = 1.0 if worst <= BOUNDARY else BOUNDARY / worst
         mu = 0.0
         for r in range(count):
