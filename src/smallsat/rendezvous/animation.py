@@ -62,7 +62,9 @@ class _Scene:
         if place == 0:
             reach = max(reach, 2.6 * given.keep_out)
         middle, half = (low + high) / 2.0, 0.5 * reach
-        axes: Axes3D = figure.add_axes((0.0, 0.0, 1.0, 0.92), projection="3d", computed_zorder=False)
+        axes: Axes3D = figure.add_axes(
+            (0.0, 0.0, 1.0, 0.92), projection="3d", computed_zorder=False
+        )
         axes.set(
             xlim=(middle[0] - half, middle[0] + half),
             ylim=(middle[1] - half, middle[1] + half),
@@ -79,7 +81,13 @@ class _Scene:
         if place == 0:
             _sphere(axes, given.keep_out)
         length = {0: 1.6 * given.keep_out, 1: reach, 2: reach}[place]
-        _cone(axes, turned(given, float(path["time_s"].min())), given.cone_angles[place], given.port if place == 2 else 0.0, length)
+        _cone(
+            axes,
+            turned(given, float(path["time_s"].min())),
+            given.cone_angles[place],
+            given.port if place == 2 else 0.0,
+            length,
+        )
         axes.plot([0.0], [0.0], [0.0], "ks", ms=5)
         figure.text(0.01, 0.015, INFERRED, fontsize=8, color="0.4")
         colour = PHASE_COLOURS[PHASES[place]]
@@ -87,7 +95,9 @@ class _Scene:
         self.track = axes.plot([], [], [], color=colour, lw=1.8, animated=True)[0]
         self.chaser = axes.plot([], [], [], "o", color="black", ms=6, animated=True)[0]
         self.thrust = axes.plot([], [], [], color="C3", lw=2.4, animated=True)[0]
-        self.plane = Poly3DCollection([np.zeros((4, 3))], facecolor="0.5", alpha=0.3, edgecolor="0.3", animated=True)
+        self.plane = Poly3DCollection(
+            [np.zeros((4, 3))], facecolor="0.5", alpha=0.3, edgecolor="0.3", animated=True
+        )
         axes.add_collection3d(self.plane)
 
     def show(self, time: float, path: pd.DataFrame, steps: pd.DataFrame) -> None:
@@ -99,7 +109,9 @@ class _Scene:
         change = step[CHANGE].to_numpy(dtype=float)[[1, 0, 2]]
         bound = self.given.control_bounds[self.place]
         name = PHASES[self.place]
-        self.title.set_text(f"Case 1, t = {time:.0f} s: {PHASE_TITLES[name]}, {np.linalg.norm(here):.4g} m away")
+        self.title.set_text(
+            f"Case 1, t = {time:.0f} s: {PHASE_TITLES[name]}, {np.linalg.norm(here):.4g} m away"
+        )
         self.track.set_data_3d(*points.T)
         self.chaser.set_data_3d(*here[:, None])
         tip = here + 0.12 * self.scale * change / bound
@@ -134,6 +146,11 @@ def _cone(axes: Axes3D, axis: np.ndarray, half_angle: float, tip: float, length:
     up = np.array([0.0, 0.0, 1.0])
     start = tip * along
     width = length * np.tan(half_angle)
-    ends = [start + length * along + width * (a * across + b * up) for a, b in ((1, 1), (-1, 1), (-1, -1), (1, -1))]
+    ends = [
+        start + length * along + width * (a * across + b * up)
+        for a, b in ((1, 1), (-1, 1), (-1, -1), (1, -1))
+    ]
     faces = [[start, ends[k], ends[(k + 1) % 4]] for k in range(4)]
-    axes.add_collection3d(Poly3DCollection(faces, facecolor=CONE, edgecolor="0.5", alpha=0.25, lw=0.6, zorder=2))
+    axes.add_collection3d(
+        Poly3DCollection(faces, facecolor=CONE, edgecolor="0.5", alpha=0.25, lw=0.6, zorder=2)
+    )

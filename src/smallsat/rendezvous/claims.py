@@ -18,7 +18,7 @@ from smallsat.rendezvous.flights import CHANGE, STATE
 from smallsat.rendezvous.guidance import PHASES
 from smallsat.rendezvous.inference import printed_steps
 from smallsat.rendezvous.inferred import acceptable, identified
-from smallsat.rendezvous.observations import FIRST_SECOND, case_cells
+from smallsat.rendezvous.observations import FIRST_SECOND
 from smallsat.rendezvous.parameters import law, start_state
 from smallsat.rendezvous.printed import CASE_TABLES, TOTAL, phase_cells, total_cells, value
 from smallsat.results import read_table
@@ -178,7 +178,9 @@ def difference_lies_close(config: Config, results: Path) -> Judgement:
     agree = pd.Series(True, index=fuel.index)
     for other in printed:
         far = (fuel["rotating"]["far"] - fuel[other]["far"]).abs()
-        close = (fuel["rotating"][["mid", "final"]] - fuel[other][["mid", "final"]]).abs().sum(axis=1)
+        close = (
+            (fuel["rotating"][["mid", "final"]] - fuel[other][["mid", "final"]]).abs().sum(axis=1)
+        )
         agree &= close > far
     said = all(
         abs(one["far"]) < max(abs(one["mid"]), abs(one["final"])) for one in printed.values()
@@ -288,7 +290,13 @@ def totals_add_up(config: Config, results: Path) -> Judgement:
     same = repeated["delta_v_m_s"] == _printed("v-bar", "delta_v_m_s")
     text = value("section-3-6-1/total-delta-v/case-1-v-bar") == repeated["delta_v_m_s"]
     return judged(
-        bool(worst["delta_v_m_s"] < 1e-9 and worst["time_s"] < 1e-9 and minutes < 0.005 and same and text),
+        bool(
+            worst["delta_v_m_s"] < 1e-9
+            and worst["time_s"] < 1e-9
+            and minutes < 0.005
+            and same
+            and text
+        ),
         f"phases miss their totals by at most {worst['delta_v_m_s']:.0e} m/s and "
         f"{worst['time_s']:.0e} s; Case 1's row of Table 3.6 differs by {minutes:.3f} min",
     )
@@ -318,7 +326,7 @@ def times_are_whole_samples(config: Config, results: Path) -> Judgement:
 
 
 def velocity_is_of_a_stable_ellipse(config: Config, results: Path) -> Judgement:
-    """vx = n y / 2 and vy = -2 n x: two intervals for the mean motion, from two rounded components."""
+    """Vx = n y / 2 and vy = -2 n x: two intervals for the mean motion, from two rounded components."""
     x, y, _, vx, vy, _ = start_state(config["rendezvous"])
     half = 0.005
     from_x = sorted(2.0 * (vx + sign * half) / y for sign in (-1, 1))
@@ -346,7 +354,10 @@ def delta_v_is_no_sum_of_plane_lengths(config: Config, results: Path) -> Judgeme
     sums = table[table["question"] == "delta_v"].set_index("reading")["misfit"]
     return judged(
         len(over) > 0,
-        "; ".join(f"{case}: {printed[case]:.2f} printed, at most {most[case]:.2f} m/s" for case in CASE_TABLES)
+        "; ".join(
+            f"{case}: {printed[case]:.2f} printed, at most {most[case]:.2f} m/s"
+            for case in CASE_TABLES
+        )
         + ". The way out of the plane adds little, so lengths are not what was summed. Of the sums "
         f"tried, '{sums.idxmin()}' fits all cells best (misfit {sums.min():.1f}, '2-norm' "
         f"{sums['2-norm']:.1f}): an inference",

@@ -28,7 +28,9 @@ def residuals(table: pd.DataFrame) -> Drawing:
     """Every cell's residual with the configured set, in assumed errors."""
     figure, axes = subplots(figsize=(6.3, 4.4))
     place = np.arange(len(table))[::-1]
-    colours = ["C0" if cell.endswith("steps") or cell.endswith("time") else "C1" for cell in table["cell"]]
+    colours = [
+        "C0" if cell.endswith("steps") or cell.endswith("time") else "C1" for cell in table["cell"]
+    ]
     axes.barh(place, table["residual"], color=colours, height=0.65)
     axes.set_yticks(place, table["cell"], fontsize=7)
     for at, row in zip(place, table.to_dict("records"), strict=True):

@@ -59,7 +59,11 @@ def identified(section: Config, evaluated: pd.DataFrame) -> pd.DataFrame:
     """
     names = parameter_names(section)
     good = acceptable(section, evaluated)
-    ranks = good[names].rank().corr() if len(good) > 2 else pd.DataFrame(np.eye(len(names)), names, names)
+    ranks = (
+        good[names].rank().corr()
+        if len(good) > 2
+        else pd.DataFrame(np.eye(len(names)), names, names)
+    )
     rows = []
     for name in names:
         low, high = section["inference"]["bounds"][name]
@@ -114,11 +118,25 @@ def readings(evaluated: pd.DataFrame) -> pd.DataFrame:
     """Least misfit with each structural reading, whatever the others are."""
     rows: list[dict[str, Any]] = []
     for reading in READINGS:
-        rows.append({"question": "delta_v", "reading": reading, "misfit": evaluated[f"misfit {reading}"].min(), "sets": len(evaluated)})
+        rows.append(
+            {
+                "question": "delta_v",
+                "reading": reading,
+                "misfit": evaluated[f"misfit {reading}"].min(),
+                "sets": len(evaluated),
+            }
+        )
     for question, options in {"side": SIDES, **CHOICES}.items():
         for option in options:
             own = evaluated[evaluated[question] == option]
-            rows.append({"question": question, "reading": str(option), "misfit": own["misfit"].min(), "sets": len(own)})
+            rows.append(
+                {
+                    "question": question,
+                    "reading": str(option),
+                    "misfit": own["misfit"].min(),
+                    "sets": len(own),
+                }
+            )
     return pd.DataFrame(rows)
 
 
@@ -155,7 +173,9 @@ def linear_programs(section: Config) -> pd.DataFrame:
             "terminal_weight": terminal,
         }
         sections.append(changed)
-        rows.append({"set_point": bool(point), "control_weight": control, "terminal_weight": terminal})
+        rows.append(
+            {"set_point": bool(point), "control_weight": control, "terminal_weight": terminal}
+        )
     flown = fly_sets(sections, ("lp",))
     reading = section["inferred"]["readings"]["delta_v"]
     printed = total_cells().set_index("case").loc["lp"]

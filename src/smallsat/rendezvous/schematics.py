@@ -27,7 +27,9 @@ KM = 1000.0
 DRAWN_PLANES = 7
 
 
-def predicted(given: Law, phase: int, state: np.ndarray, time: float) -> tuple[np.ndarray, np.ndarray]:
+def predicted(
+    given: Law, phase: int, state: np.ndarray, time: float
+) -> tuple[np.ndarray, np.ndarray]:
     """States, (N + 1, 6), and velocity changes, (N, 3), that the law plans from a state."""
     record = settings([given])[0]
     stages = given.horizons[phase]
@@ -51,9 +53,14 @@ def frame(section: Config) -> Drawing:
     earth = radius - (radius - 6378137.0)
     figure, axes = subplots(figsize=(4.6, 4.0))
     turn = np.radians(np.linspace(55.0, 125.0, 141))
-    for size, style in ((earth, {"color": "0.35", "lw": 1.4}), (radius, {"color": "C0", "lw": 1.0})):
+    for size, style in (
+        (earth, {"color": "0.35", "lw": 1.4}),
+        (radius, {"color": "C0", "lw": 1.0}),
+    ):
         axes.plot(size / KM * np.cos(turn), size / KM * np.sin(turn), **style)
-    axes.fill_between(earth / KM * np.cos(turn), earth / KM * np.sin(turn), 3200.0, color="#dfe7ee", lw=0)
+    axes.fill_between(
+        earth / KM * np.cos(turn), earth / KM * np.sin(turn), 3200.0, color="#dfe7ee", lw=0
+    )
     place = np.array([0.0, radius / KM])
     axes.plot(0.0, 0.0, marker="")
     axes.plot([0.0, place[0]], [3200.0, place[1]], color="0.5", lw=0.7, ls="--")
@@ -71,10 +78,17 @@ def frame(section: Config) -> Drawing:
     axes.text(-1.0 * length, place[1] + 130.0, r"$\hat{y}$ (V-bar)", color="C1", ha="center")
     axes.plot(*place, "o", ms=11, mfc="white", mec="C1", zorder=4)
     axes.plot(*place, "o", ms=3.5, color="C1", zorder=5)
-    axes.text(place[0] + 150.0, place[1] - 330.0, r"$\hat{z}$ out of the page," "\norbit normal", color="C1")
+    axes.text(
+        place[0] + 150.0,
+        place[1] - 330.0,
+        r"$\hat{z}$ out of the page," "\norbit normal",
+        color="C1",
+    )
     axes.text(-2050.0, 5350.0, "Earth", color="0.35")
     height = (radius - 6378137.0) / KM
-    axes.text(1500.0, 6900.0, f"target's orbit,\n{height:.0f} km high (inferred)", color="C0", fontsize=8)
+    axes.text(
+        1500.0, 6900.0, f"target's orbit,\n{height:.0f} km high (inferred)", color="C0", fontsize=8
+    )
     axes.set(xlim=(-3300, 3300), ylim=(4900, 8300), aspect="equal")
     axes.set_axis_off()
     rows.append({"item": "z", "right": 0.0, "up": 0.0, "use": "orbit normal, out of the page"})
@@ -93,17 +107,29 @@ def horizon(section: Config, flights: pd.DataFrame) -> Drawing:
     time = (np.arange(len(states))) * step
     past = mid[mid["time_s"] <= now["time_s"]]
     later = own[(own["time_s"] >= now["time_s"]) & (own["time_s"] <= now["time_s"] + time[-1])]
-    figure, (top, bottom) = subplots(2, 1, figsize=(5.6, 4.0), sharex=True, height_ratios=(1.4, 1.0))
+    figure, (top, bottom) = subplots(
+        2, 1, figsize=(5.6, 4.0), sharex=True, height_ratios=(1.4, 1.0)
+    )
     top.plot(past["time_s"] - now["time_s"], past["y_m"], "o-", color="black", ms=3.5, label="past")
     top.plot(time, states[:, 1], "o--", color="C0", ms=3.5, mfc="white", label="plan at $t_k$")
     top.plot(later["time_s"] - now["time_s"], later["y_m"], color="C1", lw=1.0, label="then flown")
     top.axhline(given.overshoot, color="0.5", lw=0.8, ls=":")
-    top.text(0.99, given.overshoot + 1.5, "$r_2$ (inferred)", transform=top.get_yaxis_transform(), ha="right", fontsize=7, color="0.4")
+    top.text(
+        0.99,
+        given.overshoot + 1.5,
+        "$r_2$ (inferred)",
+        transform=top.get_yaxis_transform(),
+        ha="right",
+        fontsize=7,
+        color="0.4",
+    )
     top.set_ylabel("along track $y$ [m]")
     top.legend()
     bottom.step(np.r_[past["time_s"] - now["time_s"]], past["dvy_m_s"], where="post", color="black")
     bottom.step(time, np.r_[changes[:, 1], changes[-1, 1]], where="post", color="C0", ls="--")
-    bottom.plot(0.0, changes[0, 1], "o", color="C1", ms=6, mfc="none", label="applied: the first one")
+    bottom.plot(
+        0.0, changes[0, 1], "o", color="C1", ms=6, mfc="none", label="applied: the first one"
+    )
     for sign in (-1, 1):
         bottom.axhline(sign * given.control_bounds[1], color="0.5", lw=0.8, ls=":")
     bottom.set(xlabel="time from $t_k$ [s]", ylabel=r"$\Delta v_y$ [m/s]")
@@ -113,7 +139,15 @@ def horizon(section: Config, flights: pd.DataFrame) -> Drawing:
         axes.axvspan(0.0, time[-1], color="#f3efe2", zorder=0)
     table = pd.DataFrame(states, columns=STATE).assign(time_s=time, drawn="plan")
     table[CHANGE] = np.vstack([changes, np.full(3, np.nan)])
-    return figure, pd.concat([past.assign(time_s=past["time_s"] - now["time_s"], drawn="past")[["drawn", "time_s", *STATE, *CHANGE]], table], ignore_index=True)
+    return figure, pd.concat(
+        [
+            past.assign(time_s=past["time_s"] - now["time_s"], drawn="past")[
+                ["drawn", "time_s", *STATE, *CHANGE]
+            ],
+            table,
+        ],
+        ignore_index=True,
+    )
 
 
 def phases(section: Config, flights: pd.DataFrame, paths: pd.DataFrame) -> Drawing:
@@ -139,14 +173,23 @@ def phases(section: Config, flights: pd.DataFrame, paths: pd.DataFrame) -> Drawi
     near.set(xlim=(-0.25 * limit, limit), ylim=(-limit / 2, limit / 2))
     near.set_title("approach and docking")
     wide.text(0.0, -0.6 * given.keep_out, "keep-out\nzone $r_1$", ha="center", fontsize=8)
-    wide.text(1.35 * given.keep_out, 0.33 * given.keep_out, "approach\ncone", ha="center", fontsize=8)
+    wide.text(
+        1.35 * given.keep_out, 0.33 * given.keep_out, "approach\ncone", ha="center", fontsize=8
+    )
     points = {0: given.set_points[0], 1: given.set_points[1]}
     wide.plot(points[0], 0.0, "x", color="black", ms=6)
     near.plot(points[1], 0.0, "x", color="black", ms=6)
     for axes in (wide, near):
         for phase in PHASES:
             part = path[path["phase"] == phase]
-            axes.plot(part["y_m"], part["x_m"], color=PHASE_COLOURS[phase], lw=1.2, label=PHASE_TITLES[phase], zorder=3)
+            axes.plot(
+                part["y_m"],
+                part["x_m"],
+                color=PHASE_COLOURS[phase],
+                lw=1.2,
+                label=PHASE_TITLES[phase],
+                zorder=3,
+            )
         axes.set_xlabel("along track $y$ [m]")
         axes.locator_params(nbins=5)
     wide.set_ylabel("radial $x$ [m]")
@@ -157,8 +200,14 @@ def phases(section: Config, flights: pd.DataFrame, paths: pd.DataFrame) -> Drawi
         ("keep-out radius r1 [m]", given.keep_out),
         ("overshoot distance r2 [m]", given.overshoot),
         ("port [m]", given.port),
-        *[(f"half angle, {PHASE_TITLES[name]} [deg]", np.degrees(angle)) for name, angle in zip(PHASES, given.cone_angles, strict=True)],
-        *[(f"set point, {PHASE_TITLES[name]} [m]", point) for name, point in zip(PHASES, given.set_points, strict=False)],
+        *[
+            (f"half angle, {PHASE_TITLES[name]} [deg]", np.degrees(angle))
+            for name, angle in zip(PHASES, given.cone_angles, strict=True)
+        ],
+        *[
+            (f"set point, {PHASE_TITLES[name]} [m]", point)
+            for name, point in zip(PHASES, given.set_points, strict=False)
+        ],
     ]
     return figure, pd.DataFrame(rows, columns=["item", "value"])
 
@@ -188,12 +237,31 @@ def rotating_planes(section: Config, flights: pd.DataFrame) -> Drawing:
     axes.plot(states[chosen, 1], states[chosen, 0], "o", color="C1", ms=5, mfc="white", zorder=4)
     for i in chosen:
         n = normals[i]
-        rows.append({"stage": int(i), "n_x": n[0], "n_y": n[1], "n_z": n[2], "x_m": states[i, 0], "y_m": states[i, 1]})
+        rows.append(
+            {
+                "stage": int(i),
+                "n_x": n[0],
+                "n_y": n[1],
+                "n_z": n[2],
+                "x_m": states[i, 0],
+                "y_m": states[i, 1],
+            }
+        )
     axes.plot(0.0, 0.0, "ks", ms=4)
     edge = 1.75 * given.keep_out
-    axes.set(xlim=(-edge, edge), ylim=(-edge, edge), aspect="equal", xlabel="along track $y$ [m]", ylabel="radial $x$ [m]")
+    axes.set(
+        xlim=(-edge, edge),
+        ylim=(-edge, edge),
+        aspect="equal",
+        xlabel="along track $y$ [m]",
+        ylabel="radial $x$ [m]",
+    )
     turn = np.degrees(np.arccos(np.clip(normals[0] @ normals[-1], -1.0, 1.0)))
-    axes.set_title(f"{len(chosen)} of {stages + 1} planes, {turn:.0f}° over the horizon; {INFERRED}", fontsize=7, color="0.4")
+    axes.set_title(
+        f"{len(chosen)} of {stages + 1} planes, {turn:.0f}° over the horizon; {INFERRED}",
+        fontsize=7,
+        color="0.4",
+    )
     axes.legend(loc="upper left")
     return figure, pd.DataFrame(rows)
 
@@ -207,4 +275,9 @@ def _planes(axes: Axes, normals: np.ndarray, radius: float) -> None:
         ends = np.array([radius * flat + sign * 0.75 * radius * across for sign in (-1, 1)])
         axes.plot(ends[:, 1], ends[:, 0], color=shade, lw=1.0)
         tip = 1.22 * radius * flat
-        axes.annotate("", tip[::-1], (radius * flat)[::-1], arrowprops={"arrowstyle": "-|>", "color": shade, "lw": 0.9})
+        axes.annotate(
+            "",
+            tip[::-1],
+            (radius * flat)[::-1],
+            arrowprops={"arrowstyle": "-|>", "color": shade, "lw": 0.9},
+        )
