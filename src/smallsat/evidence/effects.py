@@ -9,6 +9,8 @@ from smallsat.evidence.claims import Judgement, Outcome
 
 # Fewer units than this decide nothing: their resamples hardly differ.
 FEWEST = 10
+# Smaller figures are shown as zero.
+NOTHING = 5e-5
 
 Statistic = Callable[[np.ndarray], np.ndarray]
 
@@ -43,7 +45,8 @@ class Effect:
     units: int
 
     def __str__(self) -> str:
-        return f"{self.name} {self.value:.3g} ({self.low:.3g} to {self.high:.3g})"
+        value, low, high = (_text(one) for one in (self.value, self.low, self.high))
+        return f"{self.name} {value} ({low} to {high})"
 
 
 def effect(
@@ -106,6 +109,11 @@ def judgement(outcome: Outcome, reading: str, effects: Sequence[Effect]) -> Judg
     fewest = min((one.units for one in effects), default=0)
     few = f"; only {fewest} units" if fewest < FEWEST else ""
     return Judgement(outcome, f"{reading}: {', '.join(str(one) for one in effects)}{few}")
+
+
+def _text(value: float) -> str:
+    # What rounding leaves of nothing is nothing.
+    return "0" if abs(value) < NOTHING else f"{value:.3g}"
 
 
 def _too_few(effects: Sequence[Effect]) -> bool:

@@ -289,7 +289,7 @@ def _judge_interval(
 ) -> dict[str, Any]:
     """Consistent or unreproducible: agreement with a sample, or under inferred parameters.
 
-    Equal digits are no reproduction here, for another sample or another inference would give others.
+    Equal digits are no reproduction here: another sample or inference would give others.
     """
     for one in computed:
         low, high = _interval(one)
@@ -303,9 +303,8 @@ def _judge_interval(
 
 
 def _interval(one: Mapping[str, Any]) -> tuple[float, float]:
-    return tuple(  # type: ignore[return-value]
-        one["computed"] if isnan(one[end]) else one[end] for end in ("low", "high")
-    )
+    low, high = (one["computed"] if isnan(one[end]) else one[end] for end in ("low", "high"))
+    return low, high
 
 
 def _interval_text(one: Mapping[str, Any]) -> str:
