@@ -113,7 +113,9 @@ def ensemble(folder, **totals):
     for case, values in totals.items():
         for place, (time, delta_v) in enumerate(values):
             for phase in ("far", "mid", "final"):
-                rows.append([place, 1.0, case.replace("_", "-"), phase, time > 0, 1, time / 3, delta_v / 3])
+                rows.append(
+                    [place, 1.0, case.replace("_", "-"), phase, time > 0, 1, time / 3, delta_v / 3]
+                )
     columns = ["set", "misfit", "case", "phase", "ended", "steps", "time_s", "delta_v_m_s"]
     pd.DataFrame(rows, columns=columns).to_csv(folder / "ensemble.csv", index=False)
 
@@ -164,4 +166,7 @@ def test_the_law_reads_the_inferred_values(section):
     assert given.set_points[0] == pytest.approx(inferred["set_point_1"] * inferred["keep_out_m"])
     share = {"half": 1.0, "full": 0.5}[inferred["readings"]["cone_angle"]]
     assert np.degrees(given.cone_angles) == pytest.approx(share * np.array([15.0, 15.0, 8.0]))
-    assert given.axis == {"above": (1.0, 0.0, 0.0), "below": (-1.0, 0.0, 0.0)}[inferred["readings"]["r_bar"]]
+    assert (
+        given.axis
+        == {"above": (1.0, 0.0, 0.0), "below": (-1.0, 0.0, 0.0)}[inferred["readings"]["r_bar"]]
+    )

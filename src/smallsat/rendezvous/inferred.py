@@ -173,9 +173,7 @@ def linear_programs(section: Config) -> pd.DataFrame:
             "terminal_weight": terminal,
         }
         sections.append(changed)
-        rows.append(
-            {"set_point": point, "control_weight": control, "terminal_weight": terminal}
-        )
+        rows.append({"set_point": point, "control_weight": control, "terminal_weight": terminal})
     flown = fly_sets(sections, ("lp",))
     reading = section["inferred"]["readings"]["delta_v"]
     printed = total_cells().set_index("case").loc["lp"]
