@@ -25,7 +25,7 @@ def section():
 
 
 def made_up(section, depth=0.0):
-    """Two flights with far samples down to r1 less a depth, m, and mid samples from 1.1 r1 inwards."""
+    """Two flights: far samples down to 1.05 r1 less a depth, m, mid samples from 1.1 r1 inwards."""
     r1 = section["inferred"]["keep_out_m"]
     rows = []
     for flight in ("v-bar", "r-bar"):

@@ -108,7 +108,7 @@ def _largest(results: Path, constraint: str, motions: str, *places: str) -> floa
 
 
 def keep_out_zone_is_kept(config: Config, results: Path) -> Judgement:
-    """The deepest passage of the three cases' far ranges, linear and nonlinear, between samples too."""
+    """The deepest passage of the cases' far ranges, linear and nonlinear, between samples too."""
     keep_out = law(config["rendezvous"], "v-bar").keep_out
     linear = _largest(results, "keep out", "linear", "sample", "between")
     impulses = _largest(results, "keep out", "impulses", "sample", "between")
@@ -116,9 +116,10 @@ def keep_out_zone_is_kept(config: Config, results: Path) -> Judgement:
     worst = max(linear, impulses, burns)
     return judged(
         worst <= ZONE_SHARE * keep_out,
-        f"deepest inside the zone of {keep_out:.1f} m, looked at every second: {linear:.2f} m in the "
-        f"linear motion, {impulses:.2f} m in the nonlinear one, {burns:.2f} m with burns (negative: "
-        f"outside); the planes bind at samples only, and {100 * ZONE_SHARE:g} % of r1 is allowed",
+        f"deepest inside the zone of {keep_out:.1f} m, looked at every second: {linear:.2f} m in "
+        f"the linear motion, {impulses:.2f} m in the nonlinear one, {burns:.2f} m with burns "
+        f"(negative: outside); the planes bind at samples only, and {100 * ZONE_SHARE:g} % of r1 "
+        f"is allowed",
     )
 
 
@@ -127,8 +128,8 @@ def cone_violated_slightly(config: Config, results: Path) -> Judgement:
     worst = _largest(results, "cone penalty", "linear", "sample")
     return judged(
         worst <= SLIGHT_M,
-        f"at the samples of the three cases' mid ranges the chaser is at most {worst:.2f} m outside "
-        f"the cone; slightly is read as at most {SLIGHT_M:g} m",
+        f"at the samples of the three cases' mid ranges the chaser is at most {worst:.2f} m "
+        f"outside the cone; slightly is read as at most {SLIGHT_M:g} m",
     )
 
 
@@ -373,9 +374,9 @@ def truth_changes_no_step_count(config: Config, results: Path) -> Judgement:
     burnt, _, most = counts["burns"]
     return judged(
         same == phases and worst <= TRUTH_DV,
-        f"with impulses {same} of {phases} phases keep their number of steps, and delta-v changes by "
-        f"at most {worst:.1g} m/s in a phase; with burns of the printed thruster {burnt} of {phases} "
-        f"do, and delta-v changes by up to {most:.2g} m/s",
+        f"with impulses {same} of {phases} phases keep their number of steps, and delta-v changes "
+        f"by at most {worst:.1g} m/s in a phase; with burns of the printed thruster {burnt} of "
+        f"{phases} do, and delta-v changes by up to {most:.2g} m/s",
     )
 
 
@@ -421,7 +422,7 @@ def inference_is_underdetermined(config: Config, results: Path) -> Judgement:
     return judged(
         len(fixed) < len(table),
         f"{len(table)} numbers and {len(STRUCTURES)} readings for {cells} cells. Over {len(sets)} "
-        f"acceptable sets of {len(evaluated)} evaluated ones {', '.join(fixed) or 'none'} vary by a "
-        f"quarter of their bounds at most; {', '.join(loose) or 'none'} loosely; the others are "
+        f"acceptable sets of {len(evaluated)} evaluated ones {', '.join(fixed) or 'none'} vary by "
+        f"a quarter of their bounds at most; {', '.join(loose) or 'none'} loosely; the others are "
         f"free or coupled",
     )

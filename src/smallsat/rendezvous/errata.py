@@ -26,7 +26,7 @@ ROUNDING = 1e-9
 
 
 def control_bound_unit(config: Config, results: Path) -> Proof:
-    """Table 3.1: the bounds are impulses over mass, and as accelerations they would end too soon."""
+    """Table 3.1: the bounds are impulses over mass; as accelerations they would end too soon."""
     section = config["rendezvous"]
     craft = section["spacecraft"]
     push = craft["thruster_N"] / craft["mass_kg"]
@@ -124,8 +124,8 @@ def on_time(config: Config, results: Path) -> Proof:
         as_corrected=f"{correct:.2f} s",
         statement=(
             f"For {delta_v:g} m/s the printed ratio, taken in seconds, gives an impulse of "
-            f"{thrust * printed:.3f} N s where {mass * delta_v:.2f} N s are needed; with the sample "
-            f"time it gives them exactly"
+            f"{thrust * printed:.3f} N s where {mass * delta_v:.2f} N s are needed; with the "
+            f"sample time it gives them exactly"
         ),
     )
 
@@ -190,6 +190,7 @@ def docking_cone_apex(config: Config, results: Path) -> Proof:
     tangent = np.tan(given.cone_angles[2])
     duration = given.horizons[2] * given.sample_times[2]
     rotated(np.array(given.axis), given.rotation_rate * duration, last)
+    moved = given.port * float(np.linalg.norm(last - np.array(given.axis)))
     printed = corrected = -np.inf
     for i in range(given.horizons[2] + 1):
         rotated(np.array(given.axis), given.rotation_rate * i * given.sample_times[2], axis)
@@ -203,8 +204,8 @@ def docking_cone_apex(config: Config, results: Path) -> Proof:
         as_corrected="a docked chaser is at the tip of the cone at every stage",
         statement=(
             f"With the rotation of Case 3, inferred, the port moves by "
-            f"{1000.0 * given.port * np.linalg.norm(last - np.array(given.axis)):.0f} mm over the horizon "
-            f"of {duration:g} s; the printed constraint has the tip of every stage's cone at the "
+            f"{1000.0 * moved:.0f} mm over the "
+            f"horizon of {duration:g} s; the printed constraint has the tip of every stage's cone at the "
             f"port's last place, while H and the reference of Eq. 3.11 go with the stage"
         ),
     )

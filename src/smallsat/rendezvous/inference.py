@@ -5,8 +5,8 @@ of steps are whole, so the time at which a phase's end is crossed, in fractions 
 beside them: it has to lie in the last printed step. All evaluated sets are kept; sets whose misfit
 comes near the best one are called acceptable, and what they share is what the tables identify.
 
-An inference explains what it was fitted to. Equal digits are no reproduction, and with nearly as many
-parameters and readings as printed cells some agreement is to be had for nothing.
+An inference explains what it was fitted to. Equal digits are no reproduction, and with nearly as
+many parameters and readings as printed cells some agreement is to be had for nothing.
 """
 
 import copy
@@ -71,8 +71,8 @@ def printed_steps(section: Config) -> dict[tuple[str, str], int]:
 def fly_sets(sections: Sequence[Config], cases: Sequence[str] = FITTED_CASES) -> pd.DataFrame:
     """Fly cases with parameter sets: a row a set, case and phase.
 
-    Columns: ``set`` (its place), ``case``, ``phase``, ``ended``, ``steps``, ``crossing`` (steps until
-    the end condition, interpolated), ``time_s`` and a delta-v for each of `READINGS`.
+    Columns: ``set`` (its place), ``case``, ``phase``, ``ended``, ``steps``, ``crossing`` (steps
+    until the end condition, interpolated), ``time_s`` and a delta-v for each of `READINGS`.
     """
     laws = [
         law(section, case).with_(time_limit=TIME_LIMIT_S) for section in sections for case in cases
@@ -255,7 +255,7 @@ def search(section: Config, side: str) -> pd.DataFrame:
 
 
 def _chain(misfit, population, energies, generations: int, random: np.random.Generator) -> None:
-    """Differential-evolution Monte Carlo (ter Braak 2006) on the population, half misfit as -log p."""
+    """Differential-evolution Monte Carlo (ter Braak 2006) with half the misfit as -log p."""
     walkers, values = population.copy(), energies.copy()
     count, width = walkers.shape
     scale = 2.38 / np.sqrt(2.0 * width)

@@ -1,4 +1,4 @@
-"""What the searches found, put together: residuals, what is identified, readings, acceptable sets."""
+"""What the searches found, put together: residuals, profiles, readings, acceptable sets."""
 
 from itertools import product
 from typing import Any
@@ -97,7 +97,7 @@ def identified(section: Config, evaluated: pd.DataFrame) -> pd.DataFrame:
 
 
 def profiles(section: Config, evaluated: pd.DataFrame) -> pd.DataFrame:
-    """Least misfit found in each of `BINS` parts of a parameter's bounds: ``parameter``, ``value``."""
+    """Least misfit found in each of `BINS` parts of each parameter's bounds."""
     rows = []
     for name in parameter_names(section):
         low, high = section["inference"]["bounds"][name]
@@ -142,7 +142,7 @@ def readings(evaluated: pd.DataFrame) -> pd.DataFrame:
 
 
 def ensemble(section: Config, evaluated: pd.DataFrame) -> pd.DataFrame:
-    """All five cases flown with acceptable sets, spread over their misfits: a row a set, case, phase.
+    """All five cases with acceptable sets spread over their misfits; a row a set, case, phase.
 
     Delta-v is summed by each set's own best reading, in column ``delta_v_m_s``.
     """

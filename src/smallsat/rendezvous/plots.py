@@ -120,8 +120,8 @@ def manoeuvre(section: Config, case: str, flights: pd.DataFrame, paths: pd.DataF
 def thrust_history(section: Config, flight: pd.DataFrame) -> pd.DataFrame:
     """Resultant thrust of each step, N, averaged over the longest pulse that its phase allows.
 
-    Thrusters are on or off; a step's velocity change over the bound on it is the part of the longest
-    pulse for which they burn.
+    Thrusters are on or off; a step's velocity change over the bound on it is the part of the
+    longest pulse for which they burn.
     """
     force = section["spacecraft"]["thruster_N"]
     rows = []

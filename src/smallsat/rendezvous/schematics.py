@@ -97,7 +97,7 @@ def frame(section: Config) -> Drawing:
 
 
 def horizon(section: Config, flights: pd.DataFrame) -> Drawing:
-    """Figure 2.2: past, plan and what was flown, along the approach axis, from Case 1's mid range."""
+    """Figure 2.2: past, plan and what was flown along the approach axis in Case 1's mid range."""
     given = law(section, "v-bar")
     own = flights[(flights["flight"] == "v-bar") & (flights["phase"] != "far")]
     mid = own[own["phase"] == "mid"]
