@@ -134,16 +134,17 @@ def last_state_twice(config: Config, results: Path) -> Proof:
     """Eq. 2.12: only the sum to N - 1 makes the Riccati weight stand for the infinite rest."""
     section = config["rendezvous"]
     given = law(section, "v-bar")
-    matrix = transition(clohessy_wiltshire(given.mean_motion), given.sample_times[0])
-    weights = np.diag(np.asarray(given.state_weights)[0])
-    control = np.diag(np.asarray(given.control_weights)[0])
+    # The final phase, whose heavy control weight leaves much to do after its horizon.
+    matrix = transition(clohessy_wiltshire(given.mean_motion), given.sample_times[2])
+    weights = np.diag(np.asarray(given.state_weights)[2])
+    control = np.diag(np.asarray(given.control_weights)[2])
     rest = terminal_weight(matrix, np.diag(weights), np.diag(control))
     effect = matrix[:, 3:]
     gain = np.linalg.solve(control + effect.T @ rest @ effect, effect.T @ rest @ matrix)
     state = start_state(section)
     infinite = float(state @ rest @ state)
     running = 0.0
-    for _ in range(given.horizons[0]):
+    for _ in range(given.horizons[2]):
         command = -gain @ state
         running += float(state @ weights @ state + command @ control @ command)
         state = matrix @ state + effect @ command
@@ -204,9 +205,9 @@ def docking_cone_apex(config: Config, results: Path) -> Proof:
         as_corrected="a docked chaser is at the tip of the cone at every stage",
         statement=(
             f"With the rotation of Case 3, inferred, the port moves by "
-            f"{1000.0 * moved:.0f} mm over the "
-            f"horizon of {duration:g} s; the printed constraint has the tip of every stage's cone at the "
-            f"port's last place, while H and the reference of Eq. 3.11 go with the stage"
+            f"{1000.0 * moved:.0f} mm over the horizon of {duration:g} s; the printed constraint "
+            f"has the tip of every stage's cone at the port's last place, while H and the reference "
+            f"of Eq. 3.11 go with the stage"
         ),
     )
 

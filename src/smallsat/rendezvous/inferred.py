@@ -163,7 +163,8 @@ def ensemble(section: Config, evaluated: pd.DataFrame) -> pd.DataFrame:
 
 def linear_programs(section: Config) -> pd.DataFrame:
     """The LP case with many weights, with and without set point: one row a variant."""
-    sections, rows = [], []
+    sections: list[Config] = []
+    rows: list[dict[str, Any]] = []
     for point, control, terminal in product(LP_SET_POINTS, LP_CONTROL, LP_TERMINAL):
         changed = with_values(section, {}, {})
         changed["inferred"]["lp"] = {
@@ -176,8 +177,9 @@ def linear_programs(section: Config) -> pd.DataFrame:
         rows.append({"set_point": point, "control_weight": control, "terminal_weight": terminal})
     flown = fly_sets(sections, ("lp",))
     reading = section["inferred"]["readings"]["delta_v"]
-    printed = total_cells().set_index("case").loc["lp"]
-    for place, part in flown.groupby("set"):
+    printed: Any = total_cells().set_index("case").loc["lp"]
+    groups: Any = flown.groupby("set")
+    for place, part in groups:
         docked = bool(part["ended"].all())
         minutes = (part["time_s"].sum() - 1.0) / MINUTE
         rows[int(place)] |= {
