@@ -53,6 +53,7 @@ include: "rules/common.smk"
 include: "rules/transfer.smk"
 include: "rules/mars.smk"
 include: "rules/slew.smk"
+include: "rules/rendezvous_studies.smk"
 include: "rules/evidence.smk"
 include: "rules/report.smk"
 
