@@ -22,7 +22,7 @@ from smallsat.rendezvous.closed_loop import Steps, manoeuvres
 from smallsat.rendezvous.delta_v import READINGS, summed
 from smallsat.rendezvous.geometry import cone_faces, rotated
 from smallsat.rendezvous.guidance import PHASES, Law
-from smallsat.rendezvous.parameters import CASES, law, start_state
+from smallsat.rendezvous.parameters import law, start_state
 from smallsat.rendezvous.printed import CASE_TABLES, MINUTE, phase_cells, total_cells
 
 FITTED_CASES = (*CASE_TABLES, "no-set-point")
@@ -74,7 +74,9 @@ def fly_sets(sections: Sequence[Config], cases: Sequence[str] = FITTED_CASES) ->
     Columns: ``set`` (its place), ``case``, ``phase``, ``ended``, ``steps``, ``crossing`` (steps until
     the end condition, interpolated), ``time_s`` and a delta-v for each of `READINGS`.
     """
-    laws = [law(section, case).with_(time_limit=TIME_LIMIT_S) for section in sections for case in cases]
+    laws = [
+        law(section, case).with_(time_limit=TIME_LIMIT_S) for section in sections for case in cases
+    ]
     starts = np.array([start_state(section) for section in sections for _ in cases])
     flown = manoeuvres(laws, starts, with_steps=True)
     rows = []
@@ -90,7 +92,9 @@ def fly_sets(sections: Sequence[Config], cases: Sequence[str] = FITTED_CASES) ->
                     "phase": name,
                     "ended": ended,
                     "steps": int(own.sum()),
-                    "crossing": crossing(given, steps, phase, flown.ends[number, phase]) if ended else np.nan,
+                    "crossing": crossing(given, steps, phase, flown.ends[number, phase])
+                    if ended
+                    else np.nan,
                     "time_s": float(own.sum() * given.sample_times[phase]),
                     **{reading: summed(steps.impulse[own], reading) for reading in READINGS},
                 }
@@ -134,7 +138,9 @@ def residuals(section: Config, flown: pd.DataFrame) -> pd.DataFrame:
     totals = total_cells().set_index("case")
     rows = []
 
-    def add(place: int, cell: str, printed: float, computed: dict[str, float], error: float) -> None:
+    def add(
+        place: int, cell: str, printed: float, computed: dict[str, float], error: float
+    ) -> None:
         row: dict[str, Any] = {"set": place, "cell": cell, "printed": printed}
         for reading, value in computed.items():
             missed = WORST if np.isnan(value) else np.clip((value - printed) / error, -WORST, WORST)
@@ -148,7 +154,13 @@ def residuals(section: Config, flown: pd.DataFrame) -> pd.DataFrame:
         # A crossing within the last printed step is that step.
         late = row["crossing"] - wanted[key]
         miss = np.nan if not row["ended"] else max(late, 0.0) + min(late + 1.0, 0.0)
-        add(row["set"], f"{key[0]} {key[1]} steps", wanted[key], dict.fromkeys(READINGS, wanted[key] + miss), settings["step_error"])
+        add(
+            row["set"],
+            f"{key[0]} {key[1]} steps",
+            wanted[key],
+            dict.fromkeys(READINGS, wanted[key] + miss),
+            settings["step_error"],
+        )
         # The whole number is what is shown.
         rows[-1] |= {f"computed {r}": row["steps"] if row["ended"] else np.nan for r in READINGS}
         found = {r: row[r] if row["ended"] else np.nan for r in READINGS}
@@ -161,9 +173,21 @@ def residuals(section: Config, flown: pd.DataFrame) -> pd.DataFrame:
         printed = totals.loc[case]
         minutes = (part["time_s"].sum() - 1.0) / MINUTE if docked else np.nan
         spread = settings["time_share"] * printed["time_min"]
-        add(int(place), f"{case} time", printed["time_min"], dict.fromkeys(READINGS, minutes), spread)
+        add(
+            int(place),
+            f"{case} time",
+            printed["time_min"],
+            dict.fromkeys(READINGS, minutes),
+            spread,
+        )
         found = {r: part[r].sum() if docked else np.nan for r in READINGS}
-        add(int(place), f"{case} delta-v", printed["delta_v_m_s"], found, _error(settings, printed["delta_v_m_s"]))
+        add(
+            int(place),
+            f"{case} delta-v",
+            printed["delta_v_m_s"],
+            found,
+            _error(settings, printed["delta_v_m_s"]),
+        )
     return pd.DataFrame(rows)
 
 

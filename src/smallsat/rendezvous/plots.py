@@ -40,7 +40,14 @@ def cone_outline(axis: np.ndarray, half_angle: float, tip: float, length: float)
 def draw_cone(axes: Axes, axis, half_angle: float, tip: float, length: float, alpha=0.45) -> None:
     """A cone's cut with the orbit's plane."""
     axes.add_patch(
-        Polygon(cone_outline(axis, half_angle, tip, length), fc=CONE, ec="0.5", lw=0.6, alpha=alpha, zorder=0.5)
+        Polygon(
+            cone_outline(axis, half_angle, tip, length),
+            fc=CONE,
+            ec="0.5",
+            lw=0.6,
+            alpha=alpha,
+            zorder=0.5,
+        )
     )
 
 
@@ -52,9 +59,7 @@ def turned(given: Law, time: float) -> np.ndarray:
     return np.array([c * x - s * y, s * x + c * y, z])
 
 
-def manoeuvre(
-    section: Config, case: str, flights: pd.DataFrame, paths: pd.DataFrame
-) -> Drawing:
+def manoeuvre(section: Config, case: str, flights: pd.DataFrame, paths: pd.DataFrame) -> Drawing:
     """One case: the way in the orbit's plane at three scales, and the thrust over time."""
     given = law(section, case)
     flight = flights[flights["flight"] == case]
@@ -97,7 +102,14 @@ def manoeuvre(
     pulses = thrust_history(section, flight)
     for phase in PHASES:
         own = pulses[pulses["phase"] == phase]
-        thrust.fill_between(own["time_s"], own["force_N"], step="post", color=PHASE_COLOURS[phase], lw=0.4, label=PHASE_TITLES[phase])
+        thrust.fill_between(
+            own["time_s"],
+            own["force_N"],
+            step="post",
+            color=PHASE_COLOURS[phase],
+            lw=0.4,
+            label=PHASE_TITLES[phase],
+        )
     thrust.set(xlabel="time [s]", ylabel="resultant thrust [N]", ylim=(0.0, None))
     thrust.set_xlim(0.0, float(flight["time_s"].iloc[-1]))
     thrust.legend(ncols=3, loc="upper right")
@@ -107,7 +119,8 @@ def manoeuvre(
 
 def thrust_history(section: Config, flight: pd.DataFrame) -> pd.DataFrame:
     """Resultant thrust, N, where each axis burns at full force from the step's start for as long
-    as its velocity change needs: a row at every change, holding until the next."""
+    as its velocity change needs: a row at every change, holding until the next.
+    """
     craft = section["spacecraft"]
     force, mass = craft["thruster_N"], craft["mass_kg"]
     rows = []
@@ -143,7 +156,9 @@ def comparison(section: Config, flights: pd.DataFrame, paths: pd.DataFrame) -> D
         axes.set_xlabel("along track $y$ [m]")
         axes.locator_params(nbins=5)
     wide.set_aspect("equal", adjustable="datalim")
-    near.set(xlim=(-edge, edge), ylim=(-edge, edge), aspect="equal", title="around the keep-out zone")
+    near.set(
+        xlim=(-edge, edge), ylim=(-edge, edge), aspect="equal", title="around the keep-out zone"
+    )
     wide.set_ylabel("radial $x$ [m]")
     wide.set_title(INFERRED, fontsize=7, loc="left", color="0.4")
     figure.legend(*wide.get_legend_handles_labels(), loc="outside lower center", ncols=3)
