@@ -40,5 +40,6 @@ def compiled_arithmetic(function: Function) -> Function:
     A division by zero gives an infinity, as in NumPy, and no branch stands in the way of vector
     instructions.
     """
-    options = {"error_model": "numpy", "fastmath": {"contract"}}
-    return numba.njit(cache=True, **options)(function)  # type: ignore[return-value]
+    return numba.njit(  # type: ignore[return-value]
+        cache=True, error_model="numpy", fastmath={"contract"}
+    )(function)

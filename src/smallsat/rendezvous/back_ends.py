@@ -1,4 +1,8 @@
-"""Library solvers for the same programs: readable references and the ground of the choice."""
+"""Library solvers for the programs of `smallsat.rendezvous.stage_wise`, one function each.
+
+All solve the same problem, in which constraints are penalties with a large weight; DAQP alone has
+them hard, for which it has a form, and so finds some programs infeasible.
+"""
 
 import time
 from dataclasses import dataclass
@@ -7,6 +11,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sparse
 
+from smallsat.rendezvous import hpipm as hpipm_library
 from smallsat.rendezvous.stage_wise import CONTROLS, SOLVED, STATES, Program, solve, workspace
 
 
@@ -200,6 +205,58 @@ def osqp(data: SparseProgram, tolerance: float) -> Answer:
     return _answer(data, solved, result.x, result.info.iter, seconds)
 
 
+def daqp(
+    program: Program, stages: int, start: np.ndarray, hard_weight: float, tolerance: float
+) -> Answer:
+    """DAQP: a dual active-set method, on the program in the controls alone.
+
+    Rows with `hard_weight` are constraints; the others keep their excess as an unknown.
+    """
+    import daqp as library
+
+    data = sparse_program(program, stages, start)
+    controls, states = CONTROLS * stages, STATES * stages
+    free = np.linalg.solve(
+        data.equalities[:, controls : controls + states].toarray(),
+        np.column_stack([data.equal_to, -data.equalities[:, :controls].toarray()]),
+    )
+    at_rest, reach = free[:, 0], free[:, 1:]
+    inner = data.quadratic[controls : controls + states, controls : controls + states].toarray()
+    weights = data.linear[controls + states :]
+    soft = weights != hard_weight
+    excesses = int(soft.sum())
+    hessian = np.zeros((controls + excesses, controls + excesses))
+    hessian[:controls, :controls] = (
+        data.quadratic[:controls, :controls].toarray() + reach.T @ inner @ reach
+    )
+    gradient = np.zeros(controls + excesses)
+    gradient[:controls] = data.linear[:controls] + reach.T @ (
+        data.linear[controls : controls + states] + inner @ at_rest
+    )
+    gradient[controls:] = weights[soft]
+    rows = data.inequalities[:, : controls + states].toarray()
+    matrix = np.zeros((len(weights), controls + excesses))
+    matrix[:, :controls] = rows[:, :controls] + rows[:, controls:] @ reach
+    matrix[np.flatnonzero(soft), controls + np.arange(excesses)] = -1.0
+    limits = data.at_most - rows[:, controls:] @ at_rest
+    infinite = 1e30
+    upper = np.concatenate([np.ones(controls), np.full(excesses, infinite), limits])
+    lower = np.concatenate(
+        [-np.ones(controls), np.zeros(excesses), np.full(len(limits), -infinite)]
+    )
+    x, _, flag, info = library.solve(
+        hessian, gradient, matrix, upper, lower, primal_tol=tolerance, iter_limit=100000
+    )
+    return _answer(data, flag == 1, x, info["iterations"], info["setup_time"] + info["solve_time"])
+
+
+def hpipm(program: Program, stages: int, start: np.ndarray, tolerance: float) -> Answer:
+    """HPIPM: a Riccati-based interior-point method, through its C interface."""
+    solver = hpipm_library.Solver(program, stages, start, tolerance)
+    solved, controls, iterations, seconds = solver.solve()
+    return Answer(solved, controls, iterations, seconds)
+
+
 def own(program: Program, stages: int, start: np.ndarray, tolerance: float) -> Answer:
     """The stage-wise solver of this package."""
     planes = program.normals.shape[1]
@@ -208,3 +265,25 @@ def own(program: Program, stages: int, start: np.ndarray, tolerance: float) -> A
     status, iterations = solve(program, stages, start, work, tolerance, 100)
     seconds = time.perf_counter() - begin
     return Answer(status == SOLVED, work.controls[:stages].copy(), iterations, seconds)
+
+
+def cost(program: Program, stages: int, start: np.ndarray, controls: np.ndarray) -> float:
+    """Cost of some controls, clipped to their bounds, with the penalties of all rows."""
+    u = np.clip(controls, -1.0, 1.0)
+    states = [np.asarray(start)]
+    for control in u:
+        moved = states[-1].copy()
+        moved[3:] += control
+        states.append(program.transition @ moved)
+    x = np.array(states)
+    rows, limits, weights = row_list(program, stages)
+    excess = np.maximum(rows @ np.concatenate([u.ravel(), x[1:].ravel()]) - limits, 0.0)
+    quadratic = (
+        np.sum(program.control_hessian * u**2)
+        + np.sum(program.state_hessian * x[1:stages] ** 2)
+        + x[-1] @ program.terminal_hessian @ x[-1]
+    )
+    linear = np.sum(program.state_gradient[1 : stages + 1] * x[1:]) - np.sum(
+        program.control_norm * u
+    )
+    return float(0.5 * quadratic + linear + weights @ excess)

@@ -1,7 +1,7 @@
 """The three-phase guidance law (Algorithm 1) in closed loop with the motion that it guides.
 
-Errata of Algorithm 1: the far range ends where Hx <= 0 (not x <= Hx) and, since the keep-out forbids
-|x| <= r1, within a margin of r1; the other phases end by a distance, not by x <= r.
+Errata of Algorithm 1: the far range ends where Hx <= 0 (not x <= Hx) and, since the keep-out
+forbids |x| <= r1, within a margin of r1; the other phases end by a distance, not by x <= r.
 """
 
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ from smallsat.rendezvous.phase_programs import BOUNDS, PLANES, program_room, wri
 from smallsat.rendezvous.stage_wise import SOLVED, solve, workspace
 
 TOLERANCE = 1e-10  # of the solver, relative
-ITERATION_LIMIT = 60
+ITERATION_LIMIT = 100
 SOFTENED = 1e-5  # scaled excess of a hard row that counts as having given way
 
 

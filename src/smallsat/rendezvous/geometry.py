@@ -55,7 +55,7 @@ def keep_out_normals(position, velocity, axis, steps, largest_angle, rule, out):
     The first normal points at the chaser. The last lies on the axis if equal turns of at most
     `largest_angle` reach it; then the planes turn the short way. Otherwise they turn by the
     largest angle: the short way (rule 0), the way that the natural relative motion takes, which is
-    clockwise in the orbit's plane as seen from its normal (1), or that of the chaser's velocity (2).
+    clockwise in the orbit's plane as seen from its normal (1), or the chaser's own way (2).
     """
     radius = np.sqrt(position[0] ** 2 + position[1] ** 2 + position[2] ** 2)
     first = position / radius

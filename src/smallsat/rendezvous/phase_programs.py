@@ -65,7 +65,7 @@ def with_bounds(room, count):
 
 @compiled
 def reference(law, distance, angle, out):
-    """Point on the rotated axis, m, with the velocity of its rotation, m/s, if that is asked for."""
+    """Fill a point on the rotated axis, m, and, if asked for, the velocity of its turning, m/s."""
     axis = np.empty(3)
     rotated(law.axis, angle, axis)
     for k in range(3):

@@ -24,7 +24,9 @@ SOLVED, ITERATION_LIMIT, NUMERICAL = 0, 1, 2
 STATES, CONTROLS = 6, 3
 BOUNDARY = 0.995  # share of the way to the boundary that a step may go
 START_SLACK = 0.5  # scaled, of a violated row in the first iterate
-SECOND_ORDER = 0.1  # a predictor that gets less far than this share is not corrected for its products
+SECOND_ORDER = (
+    0.1  # a predictor that gets less far than this share is not corrected for its products
+)
 
 
 class Program(NamedTuple):
@@ -138,7 +140,7 @@ def roll_out(transition, start, controls, stages, states):
 
 @compiled_arithmetic
 def _gather(program, stages, states, controls, values):
-    """g'x of every row; the number of rows."""
+    """Fill g'x of every row; return the number of rows."""
     r = 0
     bounds = len(program.components)
     for i in range(1, stages + 1):
@@ -162,7 +164,7 @@ def _gather(program, stages, states, controls, values):
 
 @compiled_arithmetic
 def _list_rows(program, stages, limits, weights):
-    """b and w of every row."""
+    """Fill b and w of every row."""
     r = 0
     bounds = len(program.components)
     for i in range(1, stages + 1):
@@ -307,7 +309,14 @@ def _factor(transition, stages, work):
     avx, avy, avu, avv = transition[4, 0], transition[4, 1], transition[4, 3], transition[4, 4]
     azz, azw, awz, aww = transition[2, 2], transition[2, 5], transition[5, 2], transition[5, 5]
     last = work.curvature[stages]
-    pxx, pxy, pxz, pxu, pxv, pxw = last[0, 0], last[0, 1], last[0, 2], last[0, 3], last[0, 4], last[0, 5]
+    pxx, pxy, pxz, pxu, pxv, pxw = (
+        last[0, 0],
+        last[0, 1],
+        last[0, 2],
+        last[0, 3],
+        last[0, 4],
+        last[0, 5],
+    )
     pyy, pyz, pyu, pyv, pyw = last[1, 1], last[1, 2], last[1, 3], last[1, 4], last[1, 5]
     pzz, pzu, pzv, pzw = last[2, 2], last[2, 3], last[2, 4], last[2, 5]
     puu, puv, puw = last[3, 3], last[3, 4], last[3, 5]
