@@ -62,6 +62,7 @@ DOMAIN_FIGURES = {
 }
 ROBUSTNESS_FIGURES = ["fig-5-1", "fig-5-2", "bounce"]
 VARIANT_FIGURES = ["weights", "delay", "prediction", "disturbances"]
+STUDIES_BEYOND = ["sweeps", "bounce", *VARIANT_FIGURES]
 STUDY_DRAWING = NOTEBOOK_SOURCES + sources(
     "smallsat.rendezvous.sensitivity_plots",
     "smallsat.rendezvous.robustness_plots",
