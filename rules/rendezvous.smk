@@ -38,7 +38,7 @@ RENDEZVOUS_INFERRED = [
 STUDY_RESULTS["rendezvous"] = [
     f"{RENDEZVOUS}/{name}"
     for name in ["observations.csv", *RENDEZVOUS_FLIGHTS, *RENDEZVOUS_INFERRED]
-]
+] + STUDIES_JUDGED
 
 # Figures of each notebook run: few, so that one figure alone is made in seconds.
 RENDEZVOUS_SCHEMATICS = ["fig-2-1", "fig-2-2", "fig-3-1", "fig-3-2"]
@@ -126,6 +126,7 @@ rule rendezvous_observations:
     input:
         sources=sources("smallsat.rendezvous.__main__"),
         phases=f"{RENDEZVOUS}/phases.csv",
+        studies=STUDIES_JUDGED,
     output:
         f"{RENDEZVOUS}/observations.csv",
     log:
@@ -133,7 +134,7 @@ rule rendezvous_observations:
     benchmark:
         "logs/rendezvous/observations.benchmark.tsv"
     params:
-        config=as_json(RENDEZVOUS_CASES),
+        config=as_json(RENDEZVOUS_SECTION),
         folder=lambda _, output: os.path.dirname(output[0]),
     message:
         "rendezvous: observe the published values"
@@ -272,7 +273,10 @@ rule rendezvous_film:
 rule rendezvous:
     input:
         targets("rendezvous", "table", "figure"),
-        figure_files(*[f"figures/rendezvous/{figure}" for figure in RENDEZVOUS_BEYOND]),
+        figure_files(
+            *[f"figures/rendezvous/{figure}" for figure in (*RENDEZVOUS_BEYOND, *STUDIES_BEYOND)]
+        ),
+        STUDY_SUMMARIES,
         STUDY_RESULTS["rendezvous"],
         f"{RENDEZVOUS}/verdicts.csv",
         f"{RENDEZVOUS}/errata.csv",

@@ -78,5 +78,5 @@ def test_bound_is_a_velocity_change(law):
     """Scaled, a control of 1 changes the velocity by the bound: 0.5 N for 5 s on 14 kg."""
     record = settings([law])[0]
     assert record["scales"][0, 3] == record["control_bounds"][0] == 0.1786
-    assert 0.5 * 5.0 / 14.0 == pytest.approx(0.1786, abs=5e-5)
-    assert 0.5 * 1.0 / 14.0 == pytest.approx(0.0357, abs=5e-5)
+    assert pytest.approx(0.1786, abs=5e-5) == 0.5 * 5.0 / 14.0
+    assert pytest.approx(0.0357, abs=5e-5) == 0.5 * 1.0 / 14.0

@@ -16,6 +16,7 @@ from smallsat.rendezvous.nonlinear_flights import fly_nonlinear
 from smallsat.rendezvous.observations import observations
 from smallsat.rendezvous.parameters import check, law, start_state
 from smallsat.rendezvous.printed import CASE_TABLES
+from smallsat.rendezvous.study_observations import study_observations
 from smallsat.results import read_table, write_table
 
 
@@ -66,7 +67,8 @@ def _infer(section: Config, folder: Path) -> None:
 
 
 def _observe(section: Config, folder: Path) -> None:
-    write_table(observations_table(observations(section, folder)), folder / "observations.csv")
+    found = observations(section, folder) + study_observations({"rendezvous": section}, folder)
+    write_table(observations_table(found), folder / "observations.csv")
 
 
 if __name__ == "__main__":

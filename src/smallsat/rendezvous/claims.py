@@ -133,12 +133,12 @@ def cone_violated_slightly(config: Config, results: Path) -> Judgement:
         case: _largest(results, "cone penalty", "linear", "sample", case=case)
         for case in CASE_TABLES
     }
+    text = ", ".join(f"{case}: {max(m, 0.0):.2f} m" for case, m in by_case.items())
     worst = max(by_case.values())
     return judged(
         worst <= SLIGHT_M,
         f"at the samples of the three cases' mid ranges the chaser is at most {worst:.2f} m "
-        f"outside the cone ({', '.join(f'{case}: {max(m, 0.0):.2f} m' for case, m in by_case.items())}"
-        f"); slightly is read as at most {SLIGHT_M:g} m",
+        f"outside the cone ({text}); slightly is read as at most {SLIGHT_M:g} m",
     )
 
 

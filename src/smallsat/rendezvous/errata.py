@@ -206,8 +206,8 @@ def docking_cone_apex(config: Config, results: Path) -> Proof:
         statement=(
             f"With the rotation of Case 3, inferred, the port moves by "
             f"{1000.0 * moved:.0f} mm over the horizon of {duration:g} s; the printed constraint "
-            f"has the tip of every stage's cone at the port's last place, while H and the reference "
-            f"of Eq. 3.11 go with the stage"
+            f"has the tip of every stage's cone at the port's last place, while H and the "
+            f"reference of Eq. 3.11 go with the stage"
         ),
     )
 
