@@ -70,7 +70,7 @@ class _Scene:
             ylim=(middle[1] - half, middle[1] + half),
             zlim=(middle[2] - half, middle[2] + half),
         )
-        axes.set_box_aspect((1, 1, 1), zoom=1.25)
+        axes.set_box_aspect((1, 1, 1), zoom=0.98)
         axes.view_init(elev=32, azim=-62)
         axes.set_xlabel("along track [m]")
         axes.set_ylabel("radial [m]")
