@@ -14,6 +14,7 @@ from pathlib import Path
 from smallsat.config import read_yaml, run_folder, validate
 from smallsat.errors import InputError
 from smallsat.evidence.ledger import read_artefacts, read_ledger
+from smallsat.rendezvous.parameters import check as check_rendezvous
 from smallsat.slew.parameters import check as check_slew
 from smallsat.sources import source_files
 from smallsat.targets import refusal
@@ -36,6 +37,7 @@ configfile: ROOT / "config/default.yaml"
 try:
     config = validate(config, read_yaml(ROOT / "config/schema.yaml"))
     check_slew(config["slew"])
+    check_rendezvous(config["rendezvous"])
     RUN_FOLDER = run_folder(config, read_yaml(ROOT / "config/default.yaml"))
     read_ledger(ROOT / "data/published/values.csv")
     ARTEFACTS = read_artefacts(ROOT / "data/published/artefacts.csv")
@@ -46,13 +48,16 @@ except InputError as error:
 workdir: ROOT / RUN_FOLDER
 
 
-STUDIES = ["transfer", "mars", "slew"]
+STUDIES = ["transfer", "mars", "slew", "rendezvous"]
 
 
 include: "rules/common.smk"
 include: "rules/transfer.smk"
 include: "rules/mars.smk"
 include: "rules/slew.smk"
+include: "rules/rendezvous_engine.smk"
+include: "rules/rendezvous_studies.smk"
+include: "rules/rendezvous.smk"
 include: "rules/evidence.smk"
 include: "rules/report.smk"
 

@@ -27,7 +27,9 @@ def fly_cases(section: Config, folder: Path) -> None:
     ``phases.csv`` steps, times and delta-v of each phase.
     """
     laws = {case: law(section, case) for case in CASES}
-    flown = manoeuvres(list(laws.values()), np.tile(start_state(section), (len(laws), 1)), with_steps=True)
+    flown = manoeuvres(
+        list(laws.values()), np.tile(start_state(section), (len(laws), 1)), with_steps=True
+    )
     flights, paths, phases = [], [], []
     for number, (case, given) in enumerate(laws.items()):
         steps, end = flown.records[number], flown.ends[number]
@@ -39,7 +41,8 @@ def fly_cases(section: Config, folder: Path) -> None:
                 {
                     "flight": case,
                     "phase": name,
-                    "ended": bool(flown.docked[number]) or len(steps.impulse[steps.phase > phase]) > 0,
+                    "ended": bool(flown.docked[number])
+                    or len(steps.impulse[steps.phase > phase]) > 0,
                     "steps": len(changes),
                     "time_s": len(changes) * given.sample_times[phase],
                     **{reading: summed(changes, reading) for reading in READINGS},

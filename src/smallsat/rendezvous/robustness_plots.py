@@ -35,7 +35,14 @@ def thrust_errors(errors: pd.DataFrame) -> Drawing:
     axes.axhspan(-STATED_PCT, STATED_PCT, color=ORANGE, alpha=0.15, lw=0)
     at_end: dict[str, Any] = {"textcoords": "offset points", "va": "bottom", "ha": "right"}
     axes.annotate(f"{SIGMAS:g} sigma", (end, bound), xytext=(0, 2), **at_end)
-    axes.annotate("stated range", (end, STATED_PCT), xytext=(-2, 2), color="#8a5a00", **at_end)
+    axes.annotate(
+        "stated range",
+        (end, STATED_PCT),
+        xytext=(-2, 2),
+        color="#8a5a00",
+        bbox={"facecolor": "white", "alpha": 0.8, "lw": 0, "pad": 1},
+        **at_end,
+    )
     axes.set(xlabel="time [h]", ylabel="error of the thrust [%]", xlim=(0, end))
     return figure, errors
 
@@ -86,10 +93,11 @@ def bounce_map(table: pd.DataFrame, baseline: float) -> Drawing:
     studies, m.
     """
     figure, axes = subplots(1, 3, figsize=(7.0, 3.1), sharey=True)
+    table = table.assign(docked_pct=100.0 * table["docked_share"])
     panels = (
         ("deviation_delta_v_m_s", r"deviation of $\Delta v$ [m/s]", PRINTED_DELTA_V_M_S),
         ("deviation_time_min", "deviation of time [min]", PRINTED_TIME_MIN),
-        ("docked_share", "share that docks", None),
+        ("docked_pct", "share that docks [%]", None),
     )
     for panel, (name, label, printed) in zip(axes, panels, strict=True):
         grid = table.pivot(index="time_limit_min", columns="end_distance_m", values=name)

@@ -78,7 +78,8 @@ def costs_beside_baseline(
 def sweep(table: pd.DataFrame, phase: str, horizon: int, sample_times: Sequence[float]) -> Drawing:
     """Delta-v of a phase against its time and its number of actuations, by sample time.
 
-    The axes take in all horizons of the sweep, so that figures compare.
+    Axes end before the few outermost manoeuvres where those would squeeze all others; how many lie
+    beyond is said.
     """
     quantities = ("time_s", "steps", "delta_v_m_s")
     done = table[table["completed"]]
@@ -102,9 +103,17 @@ def sweep(table: pd.DataFrame, phase: str, horizon: int, sample_times: Sequence[
     colours = [palette[i] for i in data["shade"]]
     axes[0].scatter(data["time_s"] / MINUTE, data["delta_v_m_s"], color=colours, **DOT)
     axes[1].scatter(data["steps"], data["delta_v_m_s"], color=colours, **DOT)
-    for one, name, unit in zip(axes, quantities[:2], (MINUTE, 1.0), strict=True):
-        one.set_xlim(0, _edge(done[column(phase, name)] / unit))
-    axes[0].set_ylim(0, _edge(done[column(phase, "delta_v_m_s")]))
+    ends = [_end(data["time_s"] / MINUTE), _end(data["steps"]), _end(data["delta_v_m_s"])]
+    for one, end in zip(axes, ends, strict=False):
+        one.set_xlim(0, end)
+    axes[0].set_ylim(0, ends[2])
+    beyond = (
+        (data["time_s"] / MINUTE > ends[0])
+        | (data["steps"] > ends[1])
+        | (data["delta_v_m_s"] > ends[2])
+    )
+    if beyond.any():
+        axes[1].set_title(f"{int(beyond.sum())} of {len(data)} dots lie beyond", loc="right")
     axes[0].set(xlabel="time of the phase [min]", ylabel=rf"$\Delta v$ of the {phase} phase [m/s]")
     axes[1].set(xlabel="number of control actuations")
     for name, one in zip("ab", axes, strict=True):
@@ -216,6 +225,9 @@ def _handle(colour, label: str) -> Line2D:
     return Line2D([], [], marker="o", ls="", ms=4.5, color=colour, label=label)
 
 
-def _edge(values: pd.Series) -> float:
-    # The few outermost manoeuvres must not squeeze all others into a corner, but none is cut off.
-    return 1.04 * float(values.max()) if len(values) else 1.0
+def _end(values: pd.Series) -> float:
+    """Where an axis ends: at the data, or before the few that would squeeze all others."""
+    if values.empty:
+        return 1.0
+    most, usual = float(values.max()), 1.6 * float(values.quantile(0.98))
+    return 1.04 * min(most, usual)
