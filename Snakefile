@@ -16,6 +16,7 @@ from smallsat.errors import InputError
 from smallsat.evidence.ledger import read_artefacts, read_ledger
 from smallsat.racing.parameters import parameters as racing_parameters
 from smallsat.racing.parameters import with_absolute_course_files
+from smallsat.rendezvous.parameters import check as check_rendezvous
 from smallsat.slew.parameters import check as check_slew
 from smallsat.sources import source_files
 from smallsat.targets import refusal
@@ -40,6 +41,7 @@ try:
     check_slew(config["slew"])
     config = with_absolute_course_files(config)
     racing_parameters(config["racing"])
+    check_rendezvous(config["rendezvous"])
     RUN_FOLDER = run_folder(config, read_yaml(ROOT / "config/default.yaml"))
     read_ledger(ROOT / "data/published/values.csv")
     ARTEFACTS = read_artefacts(ROOT / "data/published/artefacts.csv")
@@ -50,7 +52,7 @@ except InputError as error:
 workdir: ROOT / RUN_FOLDER
 
 
-STUDIES = ["transfer", "mars", "slew", "racing"]
+STUDIES = ["transfer", "mars", "slew", "racing", "rendezvous"]
 
 
 include: "rules/common.smk"
@@ -58,6 +60,9 @@ include: "rules/transfer.smk"
 include: "rules/mars.smk"
 include: "rules/slew.smk"
 include: "rules/racing.smk"
+include: "rules/rendezvous_engine.smk"
+include: "rules/rendezvous_studies.smk"
+include: "rules/rendezvous.smk"
 include: "rules/evidence.smk"
 include: "rules/report.smk"
 

@@ -11,17 +11,31 @@ def sources(*modules):
     return [os.path.relpath(path) for path in source_files(*modules)]
 
 
+def named_modules(study):
+    """Modules that the errata and claims of a study name."""
+    return sorted(
+        {
+            entry[key].partition(":")[0]
+            for name, key in (("errata", "proof"), ("claims", "predicate"))
+            for entry in read_yaml(ROOT / f"data/published/{study}/{name}.yaml")
+        }
+    )
+
+
 def figure_files(*stems):
     """The files of figures: three formats and the data drawn."""
     return [f"{stem}.{suffix}" for stem in stems for suffix in ("svg", "pdf", "png", "csv")]
 
 
 def targets(document, *kinds):
-    """Targets of a document's artefacts, in the order of the document."""
+    """Targets of a document's artefacts, in the order of the document; those built so far."""
     return [
         row["target"]
         for row in ARTEFACTS
-        if row["document"] == document and row["kind"] in kinds and row["target"] not in LEFT_OUT
+        if row["document"] == document
+        and row["kind"] in kinds
+        and row["target"]
+        and row["target"] not in LEFT_OUT
     ]
 
 

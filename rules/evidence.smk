@@ -13,11 +13,7 @@ for study in STUDIES:
                 for name in ("rules", "bindings", "errata", "claims")
             ],
             # The judge loads a study's proofs and predicates by name.
-            sources=sources(
-                "smallsat.evidence.__main__",
-                f"smallsat.{study}.errata",
-                f"smallsat.{study}.claims",
-            ),
+            sources=sources("smallsat.evidence.__main__", *named_modules(study)),
             results=STUDY_RESULTS[study],
         output:
             errata=f"data/results/{study}/errata.csv",

@@ -225,7 +225,12 @@ for run, (film, trajectory, step) in MARS_FILMS.items():
         input:
             notebook=project("notebooks/mars/animation.ipynb"),
             sources=NOTEBOOK_SOURCES
-            + sources("smallsat.mars.animation", "smallsat.drawing.style", "smallsat.results"),
+            + sources(
+                "smallsat.mars.animation",
+                "smallsat.drawing.film",
+                "smallsat.drawing.style",
+                "smallsat.results",
+            ),
             trajectory=f"{MARS}/{trajectory}",
         output:
             f"figures/mars/{film}.mp4",

@@ -43,7 +43,7 @@ def verdict(
     )
     assert list(table.columns) == list(VERDICT_COLUMNS)
     (outcome,) = table.itertuples()
-    assert outcome.verdict in VERDICTS
+    assert outcome.verdict in (*VERDICTS, PENDING)
     assert outcome.reason
     return outcome
 
@@ -141,6 +141,14 @@ def test_unreproducible_says_what_is_missing_and_shows_the_nearest():
     assert outcome.reason == "because; missing: the seed"
     assert outcome.computed == 3.3
     assert verdict(3.24694, rule={"unreproducible": "the seed"}).verdict == "reproduced"
+
+
+@pytest.mark.parametrize("kind", ["input", "result", "timing"])
+def test_a_part_not_built_yet_is_pending_until_something_is_computed(kind):
+    rule = {"pending": "chapter 4"}
+    outcome = verdict(kind=kind, rule=rule)
+    assert (outcome.verdict, outcome.reason) == (PENDING, "chapter 4: because")
+    assert verdict(3.24694, kind=kind, rule=rule).verdict == "mismatch"
 
 
 def test_context_by_rule_and_for_lost_values():

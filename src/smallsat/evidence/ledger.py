@@ -55,7 +55,7 @@ def read_ledger(path: Path) -> list[Row]:
 def read_artefacts(path: Path) -> list[Row]:
     """Read ``data/published/artefacts.csv``: one row a table, figure or animation.
 
-    An empty target means that the study is not built yet.
+    An empty target means that the artefact's part of the study is not built yet.
     """
     table = _read(path, ARTEFACT_COLUMNS)
     for line, row in _numbered(table):

@@ -6,7 +6,7 @@ from math import nan
 
 import pandas as pd
 
-OBSERVATION_COLUMNS = ("id", "run", "computed", "residual", "note")
+OBSERVATION_COLUMNS = ("id", "run", "computed", "low", "high", "residual", "note")
 
 
 @dataclass(frozen=True)
@@ -27,6 +27,9 @@ class Observation:
         where a better optimum is claimed.
     note
         What a reader must know of this value, such as a solver that did not converge.
+    low, high
+        Ends of the interval in which the printed value must lie to agree with this run, where the
+        run is a sample or rests on inferred parameters.
     """
 
     id: str
@@ -34,6 +37,8 @@ class Observation:
     run: str = ""
     residual: float = nan
     note: str = ""
+    low: float = nan
+    high: float = nan
 
 
 def observations_table(observations: Iterable[Observation]) -> pd.DataFrame:

@@ -1,7 +1,7 @@
 """One verdict for each published number, by rules that are fixed before the run they judge."""
 
 from collections.abc import Mapping, Sequence
-from math import nan
+from math import isnan, nan
 from typing import Any
 
 import pandas as pd
@@ -38,7 +38,15 @@ VERDICT_COLUMNS = (
     "reason",
 )
 TEXT_COLUMNS = ("case", "component", "printed", "unit")
-RULE_KINDS = ("tolerance", "truncated", "objective", "unreproducible", "context")
+RULE_KINDS = (
+    "tolerance",
+    "truncated",
+    "objective",
+    "interval",
+    "unreproducible",
+    "context",
+    "pending",
+)
 
 Row = Mapping[str, str]
 Entry = dict[str, Any]
@@ -95,18 +103,24 @@ def judge(
         erratum = erratum_of.get(identifier)
         proof = proof_of[erratum["key"]] if erratum else None
         computed = computed_of.get(identifier, [])
-        if row["kind"] == "input":
+        rule = rule_of.get(identifier, {})
+        if "pending" in rule:
+            outcome = _judge_pending(identifier, computed, rule)
+        elif row["kind"] == "input":
             outcome = _judge_input(row, binding_of.get(identifier), proof, config)
         elif row["kind"] == "timing":
             outcome = _judge_timing(row, computed, proof)
         else:
-            outcome = _judge_result(row, computed, rule_of.get(identifier, {}), proof)
+            outcome = _judge_result(row, computed, rule, proof)
         judged.append({name: row.get(name, "") for name in VERDICT_COLUMNS} | outcome)
     return pd.DataFrame(judged, columns=list(VERDICT_COLUMNS))
 
 
 def pending(rows: Sequence[Row]) -> pd.DataFrame:
-    """The rows of a document whose study is not built yet."""
+    """The rows of a document whose study is not built yet.
+
+    Parts of a built study that are not are named in its ``rules.yaml``, by rules with ``pending``.
+    """
     reason = "the study is not built yet"
     blank = {"computed": nan, "difference": nan, "tolerance": nan}
     return pd.DataFrame(
@@ -145,6 +159,16 @@ def _erratum(proof: Mapping[str, Any], computed: float, printed: Printed | None)
         reason = f"listed as erratum '{proof['key']}', but its proof does not hold"
         return _outcome("mismatch", reason, computed, printed)
     return _outcome("erratum", f"{proof['key']}: {proof['statement']}", computed, printed)
+
+
+def _judge_pending(
+    identifier: str, computed: Sequence[Mapping[str, Any]], rule: Mapping[str, Any]
+) -> dict[str, Any]:
+    if computed:
+        # What is computed must be judged: a pending row cannot hide a wrong value.
+        reason = "listed as pending, but computed: remove it from the pending rows of rules.yaml"
+        return _outcome("mismatch", reason, computed[-1]["computed"])
+    return _outcome(PENDING, f"{rule['pending']}: {rule['reason']}")
 
 
 def _judge_input(
@@ -204,6 +228,8 @@ def _judge_result(
         return _outcome("mismatch", "no computed value", value, printed)
 
     half_unit = printed.half_unit
+    if "interval" in rule:
+        return _judge_interval(printed, computed, rule)
     if "tolerance" not in rule or not _is_stricter(rule["tolerance"], printed):
         for one in computed:
             if printed.matches(one["computed"]):
@@ -256,6 +282,36 @@ def _judge_result(
         return _outcome("unreproducible", reason, value, printed, half_unit)
     reason = last["note"] if isinstance(last["note"], str) and last["note"] else "not explained"
     return _outcome("mismatch", reason, value, printed, half_unit)
+
+
+def _judge_interval(
+    printed: Printed, computed: Sequence[Mapping[str, Any]], rule: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Consistent or unreproducible: agreement with a sample, or under inferred parameters.
+
+    Equal digits are no reproduction here: another sample or inference would give others.
+    """
+    for one in computed:
+        low, high = _interval(one)
+        if low - printed.half_unit <= printed.value <= high + printed.half_unit:
+            reason = _with_run(f"{rule['reason']}; {_interval_text(one)}", one)
+            return _outcome("consistent", reason, one["computed"], printed)
+    nearest = min(computed, key=lambda one: abs(one["computed"] - printed.value))
+    reason = _with_run(f"{rule['reason']}; {_interval_text(nearest)}", nearest)
+    reason += f"; missing: {rule['interval']}"
+    return _outcome("unreproducible", reason, nearest["computed"], printed)
+
+
+def _interval(one: Mapping[str, Any]) -> tuple[float, float]:
+    low, high = (one["computed"] if isnan(one[end]) else one[end] for end in ("low", "high"))
+    return low, high
+
+
+def _interval_text(one: Mapping[str, Any]) -> str:
+    low, high = _interval(one)
+    if low == high:
+        return "compared to the printed digits"
+    return f"interval {low:.4g} to {high:.4g}"
 
 
 def _is_stricter(tolerance: float, printed: Printed) -> bool:

@@ -4,10 +4,8 @@ Mars and the orbits are drawn once; each frame restores them and draws only what
 """
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
-import imageio_ffmpeg
 import matplotlib as mpl
 import numpy as np
 import pandas as pd
@@ -36,21 +34,6 @@ from smallsat.mars.scene import (
 # Multiples of 16, as the encoder asks for.
 WIDTH, HEIGHT, DPI = 960, 544, 100
 HIDDEN_ALPHA = 0.3  # of a spacecraft behind the planet
-
-
-def write_film(pictures: Iterator[bytes], path: Path | str, rate: int) -> None:
-    """Encode RGBA pictures as H.264, atomically."""
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_name(f".partial-{path.name}")
-    writer = imageio_ffmpeg.write_frames(
-        str(partial), (WIDTH, HEIGHT), fps=rate, pix_fmt_in="rgba", output_params=["-threads", "1"]
-    )
-    writer.send(None)
-    for picture in pictures:
-        writer.send(picture)
-    writer.close()
-    partial.replace(path)
 
 
 def frames(given: Parameters, trajectory: pd.DataFrame, times: np.ndarray) -> Iterator[bytes]:

@@ -98,7 +98,8 @@ def _study(
         cells = of_table(verdicts, row["id"])
         in_table[cells.index] = True
         table_contents.append({**row, **value_table(cells)})
-    elsewhere = verdicts[~in_table & (verdicts["kind"] != "input")]
+    waiting = verdicts["verdict"] == PENDING
+    elsewhere = verdicts[~in_table & ~waiting & (verdicts["kind"] != "input")]
     errata = records(read_findings(results / "errata.csv"))
     claims = records(read_findings(results / "claims.csv"))
     unreproducible = verdicts[verdicts["verdict"] == "unreproducible"]
@@ -114,7 +115,7 @@ def _study(
             {"locator": locator, **value_table(rows)}
             for locator, rows in elsewhere.groupby("locator", sort=False)
         ],
-        "inputs": input_groups(verdicts[verdicts["kind"] == "input"]),
+        "inputs": input_groups(verdicts[~waiting & (verdicts["kind"] == "input")]),
         "errata": errata,
         "claims": claims,
         "extras": _extras(published / "extras.yaml", run),
@@ -127,6 +128,10 @@ def _study(
         "wrong": [
             {"id": row["id"], "reason": row["reason"], **value_texts(row)}
             for row in records(failures(verdicts))
+        ],
+        "pending": [
+            {"reason": reason, "values": len(rows)}
+            for reason, rows in verdicts[waiting].groupby("reason", sort=False)
         ],
         "unreproducible": [
             {"reason": reason, "places": sorted(set(rows["locator"])), "values": len(rows)}

@@ -1,0 +1,127 @@
+"""The configuration's ``rendezvous`` section as guidance laws, and checks beyond the schema."""
+
+import numpy as np
+
+from smallsat.config import Config
+from smallsat.errors import InputError
+from smallsat.rendezvous.guidance import (
+    ALONG_AXIS,
+    AT_HORIZON,
+    AT_STAGE,
+    AT_START,
+    CONE_ONLY,
+    CURRENT,
+    DISTANCE,
+    NATURAL,
+    PHASES,
+    SHORTEST,
+    Law,
+)
+
+# The five manoeuvres of Section 3.6.
+CASES = ("v-bar", "r-bar", "rotating", "no-set-point", "lp")
+V_BAR = (0.0, 1.0, 0.0)
+R_BAR = {"above": (1.0, 0.0, 0.0), "below": (-1.0, 0.0, 0.0)}
+PLANE_RULES = {"shortest": SHORTEST, "natural": NATURAL, "current": CURRENT}
+SWITCHES = {"cone": CONE_ONLY, "distance": DISTANCE, "along axis": ALONG_AXIS}
+SET_POINT_TIMES = {"start": AT_START, "horizon": AT_HORIZON, "stage": AT_STAGE}
+CONE_SHARES = {"half": 1.0, "full": 0.5}
+
+
+def start_state(section: Config) -> np.ndarray:
+    """Relative state at the start of every case, (6,), m and m/s (Table 3.2)."""
+    start = section["start"]
+    return np.array([*start["position_m"], *start["velocity_m_s"]], dtype=float)
+
+
+def law(section: Config, case: str = "v-bar") -> Law:
+    """The guidance law of one of `CASES`, with the inferred values for what is not printed."""
+    inferred = section["inferred"]
+    readings = inferred["readings"]
+    phases = [section["phases"][name] for name in PHASES]
+    share = CONE_SHARES[readings["cone_angle"]]
+    r1, r2 = inferred["keep_out_m"], inferred["overshoot_m"]
+    far, mid, final = (SWITCHES[name] for name in readings["switches"])
+    common = Law(
+        mean_motion=inferred["mean_motion_rad_s"],
+        sample_times=_triple(phases, "sample_time_s"),
+        horizons=_triple(phases, "horizon"),
+        state_weights=np.array([phase["state_weights"] for phase in phases], dtype=float),
+        control_weights=np.array([[phase["control_weight"]] * 3 for phase in phases], dtype=float),
+        # The cone of the docking program is no penalty but a constraint (Section 3.3.1).
+        penalties=(phases[0]["penalty"], phases[1]["penalty"], 0.0),
+        cone_angles=tuple(share * np.radians(phase["cone_angle_deg"]) for phase in phases),
+        control_bounds=_triple(phases, "control_bound_m_s"),
+        keep_out=r1,
+        overshoot=r2,
+        set_points=(inferred["set_point_1"] * r1, inferred["set_point_2"] * r2),
+        switches=(far, mid, final),
+        switch_distances=(
+            inferred["switch_1"] * r1,
+            inferred["switch_2"] * r2,
+            inferred["end_distance_m"],
+        ),
+        speed_bound=inferred["speed_bound_m_s"],
+        axis=V_BAR,
+        port=float(np.linalg.norm(section["port_m"])),
+        plane_rate=inferred["plane_rate"],
+        plane_rule=PLANE_RULES[readings["plane_rule"]],
+        terminal_weights=(inferred["terminal_weight"],) * 3,
+        set_point_time=SET_POINT_TIMES[readings["set_point_time"]],
+        reference_moves=readings["reference_moves"],
+    )
+    if case == "r-bar":
+        return common.with_(axis=R_BAR[readings["r_bar"]])
+    if case == "rotating":
+        return common.with_(rotation_rate=inferred["rotation_rate_rad_s"])
+    if case == "no-set-point":
+        return common.with_(set_points=(0.0, common.set_points[1]))
+    if case == "lp":
+        lp, weights = inferred["lp"], common.state_weights[0]
+        return common.with_(
+            set_points=(lp["set_point"] * r1, common.set_points[1]),
+            norm_weights=lp["state_weight"] * weights,
+            norm_terminal_weights=lp["terminal_weight"] * weights,
+            norm_control_weights=np.full(3, lp["control_weight"]),
+        )
+    return common
+
+
+def check(section: Config) -> None:
+    """Refuse what the schema cannot: zones that contradict each other or the start.
+
+    Raises
+    ------
+    InputError
+        Naming the key, its value and what is allowed.
+    """
+    inferred = section["inferred"]
+    r1, r2 = inferred["keep_out_m"], inferred["overshoot_m"]
+    distance = float(np.linalg.norm(section["start"]["position_m"]))
+    port = float(np.linalg.norm(section["port_m"]))
+    if distance <= r1:
+        raise InputError(
+            f"config key 'rendezvous.start.position_m': {section['start']['position_m']} lies "
+            f"{distance:g} m from the target, inside the keep-out zone; must be farther than "
+            f"{r1:g} m, or lower 'rendezvous.inferred.keep_out_m'"
+        )
+    if r2 >= r1:
+        raise InputError(
+            f"config key 'rendezvous.inferred.overshoot_m': {r2:g} is not allowed; must be less "
+            f"than 'rendezvous.inferred.keep_out_m', {r1:g}"
+        )
+    if port >= r2:
+        raise InputError(
+            f"config key 'rendezvous.port_m': {section['port_m']} lies {port:g} m from the target; "
+            f"must be less than 'rendezvous.inferred.overshoot_m', {r2:g}"
+        )
+    truth = section["truth"]
+    if truth["gravity_order"] > truth["gravity_degree"]:
+        raise InputError(
+            f"config key 'rendezvous.truth.gravity_order': {truth['gravity_order']} is not "
+            f"allowed; must be at most 'gravity_degree', {truth['gravity_degree']}"
+        )
+
+
+def _triple(phases: list[Config], key: str) -> tuple:
+    return tuple(phase[key] for phase in phases)

@@ -1,0 +1,39 @@
+"""Relative motion near a circular orbit: the guidance law's prediction model.
+
+Frame: the target's local-vertical local-horizontal frame, x radially outwards, y along the
+velocity, z along the orbit normal. States are relative position, m, and velocity in that rotating
+frame, m/s.
+"""
+
+import numpy as np
+import scipy.linalg
+
+from smallsat.config import Config  # noqa: F401
+
+
+def clohessy_wiltshire(mean_motion: float) -> np.ndarray:
+    """Matrix of the continuous equations, (6, 6), for a mean motion in rad/s (2.2)."""
+    n = mean_motion
+    matrix = np.zeros((6, 6))
+    matrix[:3, 3:] = np.eye(3)
+    matrix[3, 0], matrix[3, 4] = 3.0 * n**2, 2.0 * n
+    matrix[4, 3] = -2.0 * n
+    matrix[5, 2] = -(n**2)
+    return matrix
+
+
+def transition(matrix: np.ndarray, duration: float) -> np.ndarray:
+    """State transition over a duration, s (3.1); impulses are added to the velocity before it."""
+    return scipy.linalg.expm(matrix * duration)
+
+
+def terminal_weight(
+    transition: np.ndarray, state_weight: np.ndarray, control_weight: np.ndarray
+) -> np.ndarray:
+    """Solution of the discrete algebraic Riccati equation, (6, 6), for x'Qx + u'Ru.
+
+    The control acts as an impulse before the transition: B = A [0; I].
+    """
+    return scipy.linalg.solve_discrete_are(
+        transition, transition[:, 3:], np.diag(state_weight), np.diag(control_weight)
+    )

@@ -1,0 +1,147 @@
+"""Commands of the studies of many manoeuvres. ``python -m smallsat.rendezvous.studies -h``."""
+
+import argparse
+import json
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from smallsat.config import Config
+from smallsat.errors import report_input_errors
+from smallsat.rendezvous import study_summaries
+from smallsat.rendezvous.actuation_noise import readings_table, sampling
+from smallsat.rendezvous.disturbances import thrust_noise, thrust_reading
+from smallsat.rendezvous.initial_states import (
+    IN_PLANE,
+    Distribution,
+    initial_states,
+    quadrant,
+)
+from smallsat.rendezvous.parameters import check
+from smallsat.rendezvous.shards import merge, part
+from smallsat.rendezvous.study_cases import BASELINE, GROUPS, PHASES, Case, base, cases
+from smallsat.rendezvous.study_runs import fly_cases, fly_passages
+from smallsat.rendezvous.study_tables import (
+    KEY,
+    PASSAGES,
+    PASSAGES_KEY,
+    SCHEMA,
+    STATE,
+    end_columns,
+)
+from smallsat.results import read_table, write_table
+
+# Of chapter 4, and of chapter 5, which has states of its own.
+STARTS, DISTURBED_STARTS = "initial-states.parquet", "disturbed-states.parquet"
+DOMAIN = "domain.parquet"
+# Of the sample paths in Figure 5.1.
+PATH_S, PATH_STEP_S, PATHS = 12.0 * 3600.0, 120.0, 20
+
+
+def main() -> None:
+    """Parse the command line and run one command."""
+    parser = argparse.ArgumentParser(prog="python -m smallsat.rendezvous.studies")
+    commands = parser.add_subparsers(dest="command", required=True)
+
+    states = commands.add_parser("states", help="draw the initial states")
+    states.add_argument("--config", required=True, type=json.loads, help="its section, JSON")
+    states.add_argument("--folder", required=True, type=Path)
+
+    shard = commands.add_parser("shard", help="fly one part of the manoeuvres of a group")
+    shard.add_argument("group", choices=GROUPS)
+    shard.add_argument("--shard", required=True, type=int, help="from 1 on")
+    shard.add_argument("--shards", required=True, type=int)
+    shard.add_argument("--config", required=True, type=json.loads, help="its section, JSON")
+    shard.add_argument("--folder", required=True, type=Path, help="of the merged tables")
+    shard.add_argument("--output", required=True, type=Path)
+
+    merged = commands.add_parser("merge", help="join the shards of a group")
+    merged.add_argument("group", choices=GROUPS)
+    merged.add_argument("shards", nargs="+", type=Path)
+    merged.add_argument("--output", required=True, type=Path)
+
+    tables = commands.add_parser("summaries", help="tables made from the manoeuvres")
+    tables.add_argument("--config", required=True, type=json.loads, help="its section, JSON")
+    tables.add_argument("--folder", required=True, type=Path)
+
+    arguments = parser.parse_args()
+    {"states": _states, "shard": _shard, "merge": _merge, "summaries": _summaries}[
+        arguments.command
+    ](arguments)
+
+
+def _states(arguments: argparse.Namespace) -> None:
+    section, folder = arguments.config, arguments.folder
+    studies, robustness = section["studies"], section["studies"]["robustness"]
+    for name, count, seed in (
+        (STARTS, studies["samples"], studies["seed"]),
+        (DISTURBED_STARTS, robustness["states"], robustness["seed"]),
+    ):
+        write_table(states_table(section, count, seed), folder / name)
+
+
+def _shard(arguments: argparse.Namespace) -> None:
+    section, group = arguments.config, arguments.group
+    check(section)
+    flown = cases(section, group)
+    own = []
+    for case in flown:
+        table = start_table(case, arguments.folder)
+        own.append(table.iloc[part(len(table), arguments.shard, arguments.shards)])
+    if group == "passages":
+        table = fly_passages(section, flown[0], own[0])
+    else:
+        table = fly_cases(section, flown, own)
+    write_table(table, arguments.output)
+
+
+def _merge(arguments: argparse.Namespace) -> None:
+    schema, key = (PASSAGES, PASSAGES_KEY) if arguments.group == "passages" else (SCHEMA, KEY)
+    merge(arguments.shards, arguments.output, schema, key)
+
+
+def _summaries(arguments: argparse.Namespace) -> None:
+    section, folder = arguments.config, arguments.folder
+    noise, reading = thrust_noise(section), thrust_reading(section)
+    seed = section["studies"]["robustness"]["seed"]
+    for name, table in {
+        "variants": study_summaries.variants(section, folder),
+        "bounce": study_summaries.bounce(folder),
+        "deviations": study_summaries.deviations(folder),
+        "infeasible": study_summaries.infeasible(folder),
+        "thrust-readings": readings_table(noise),
+        "thrust-errors": sampling(noise, reading, PATH_S, PATH_STEP_S, PATHS, seed),
+    }.items():
+        write_table(table, folder / f"{name}.csv")
+
+
+def states_table(section: Config, count: int, seed: int) -> pd.DataFrame:
+    """Initial states of a study, one a row, with distance, m, and quadrant."""
+    settings = section["studies"]
+    nearest, farthest = (1e3 * distance for distance in settings["distance_km"])
+    law = Distribution(nearest, farthest, settings["velocity_deviation_m_s"], IN_PLANE)
+    drawn = initial_states(count, seed, law, base(section).mean_motion)
+    table = pd.DataFrame({"sample": np.arange(count, dtype=np.int32)})
+    table[list(STATE)] = drawn
+    table["distance_m"] = np.linalg.norm(drawn[:, :3], axis=1)
+    table["quadrant"] = quadrant(drawn).astype(np.int8)
+    return table
+
+
+def start_table(case: Case, folder: Path) -> pd.DataFrame:
+    """Where a case begins: an initial state, or where the baseline ended the phase before."""
+    if case.phases[0] == 0:
+        table = read_table(folder / (STARTS if case.world is None else DISTURBED_STARTS))
+    else:
+        flown = read_table(folder / DOMAIN)
+        before = end_columns(PHASES[case.phases[0] - 1])
+        ended = (flown["case"] == BASELINE) & (flown["end_phase"] > case.phases[0])
+        table = flown.loc[ended, ["sample", *before]]
+        table = table.rename(columns=dict(zip(before, STATE, strict=True)))
+    runs = [table.assign(run=np.int32(run)) for run in range(case.runs)]
+    return pd.concat(runs, ignore_index=True)
+
+
+if __name__ == "__main__":
+    report_input_errors(main)

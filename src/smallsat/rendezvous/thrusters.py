@@ -1,0 +1,40 @@
+"""Thrusters that are on or off: from a commanded velocity change to pulses (Eqs. 2.4 to 2.6)."""
+
+from smallsat.dynamics.compiled import compiled
+
+
+@compiled
+def pulse_on_times(delta_v, mass, force, minimum_on_time, on_times):
+    """Fill the on-times (3,), s, of the thruster of each axis for a velocity change (3,), m/s.
+
+    A pulse of constant force gives the momentum ``mass * delta_v`` (Eqs. 2.4 and 2.5; the latter
+    leaves out the duration that the force is taken over). A pulse shorter than that
+    of the minimum impulse bit is left out (Eq. 2.6).
+
+    Parameters
+    ----------
+    delta_v : shape (3,)
+        Commanded, m/s, along the axes of the thrusters.
+    mass, force, minimum_on_time : float
+        Of the chaser, kg; of a thruster, N; s.
+    on_times : shape (3,)
+        Filled.
+    """
+    for axis in range(3):
+        wanted = mass * abs(delta_v[axis]) / force
+        on_times[axis] = wanted if wanted >= minimum_on_time else 0.0
+
+
+@compiled
+def thrust_acceleration(delta_v, mass, force, acceleration):
+    """Fill the acceleration (3,), m/s^2, of burning thrusters, with the signs of ``delta_v``."""
+    for axis in range(3):
+        acceleration[axis] = force / mass if delta_v[axis] >= 0.0 else -force / mass
+
+
+@compiled
+def realised(delta_v, mass, force, minimum_on_time, impulse):
+    """Fill the velocity change (3,), m/s, of impulsive thrusters: all but what is too small."""
+    for axis in range(3):
+        wanted = mass * abs(delta_v[axis]) / force
+        impulse[axis] = delta_v[axis] if wanted >= minimum_on_time else 0.0

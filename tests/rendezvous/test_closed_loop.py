@@ -1,0 +1,179 @@
+"""The compiled closed loop, against the plain one and its own ledger."""
+
+import numpy as np
+import pytest
+
+from smallsat.rendezvous import back_ends, constraint_check, guidance, reference_loop
+from smallsat.rendezvous.closed_loop import manoeuvres, next_control
+from smallsat.rendezvous.phase_programs import BOUNDS, PLANES, program_room
+from smallsat.rendezvous.prediction import clohessy_wiltshire, transition
+from smallsat.rendezvous.stage_wise import workspace
+
+CASES = ["v-bar", "r-bar", "rotating"]
+
+
+@pytest.fixture(scope="module")
+def flown(laws, chaser):
+    cases = list(laws.values())
+    return manoeuvres(cases, np.tile(chaser, (len(cases), 1)), with_steps=True)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_plain_loop_flies_the_same(laws, chaser, case):
+    """NumPy, the document's formulas and Clarabel: same steps; paths within 1 cm, 0.1 mm/s."""
+    plain = reference_loop.fly(
+        laws[case], chaser, lambda program: back_ends.clarabel(program, 1e-9)
+    )
+    compiled = manoeuvres([laws[case]], chaser, with_steps=True)
+    states = compiled.records[0].state
+    assert plain.steps == compiled.steps[0].tolist()
+    difference = np.abs(plain.states[: len(states)] - states)
+    assert difference[:, :3].max() < 1e-2 and difference[:, 3:].max() < 1e-4
+
+
+def test_ledger_closes(flown, laws, law):
+    """Each state follows from the last one, its impulse and the equations; so do the sums."""
+    matrix = clohessy_wiltshire(law.mean_motion)
+    for m, steps in enumerate(flown.records):
+        before = steps.state.copy()
+        before[:, 3:] += steps.impulse
+        for phase in range(3):
+            mine = np.flatnonzero(steps.phase == phase)
+            after = before[mine] @ transition(matrix, law.sample_times[phase]).T
+            inner = mine[mine < len(steps.time) - 1]
+            assert np.allclose(after[: len(inner)], steps.state[inner + 1], rtol=0, atol=1e-9)
+            if len(mine) and flown.docked[m]:
+                assert np.allclose(after[-1], flown.ends[m, phase], rtol=0, atol=1e-9)
+            impulses = steps.impulse[mine]
+            assert flown.delta_v[m, phase] == pytest.approx(np.linalg.norm(impulses, axis=1).sum())
+            assert flown.delta_v_axes[m, phase] == pytest.approx(np.abs(impulses).sum())
+            assert flown.steps[m, phase] == len(mine)
+            assert flown.iterations[m, phase] == steps.iterations[mine].sum()
+            bound = law.control_bounds[phase]
+            assert np.abs(impulses).max(initial=0.0) <= bound * (1 + 1e-9)
+
+
+def test_delta_v_is_the_change_of_velocity(flown, law):
+    """Against the equations' integral: what the velocity gains less what the motion gives it."""
+    steps = flown.records[0]
+    matrix = clohessy_wiltshire(law.mean_motion)
+    gained, given = np.zeros(3), np.zeros(3)
+    for k in range(len(steps.time) - 1):
+        duration = steps.time[k + 1] - steps.time[k]
+        start = steps.state[k] + np.concatenate([np.zeros(3), steps.impulse[k]])
+        weights, nodes = [5 / 18, 8 / 18, 5 / 18], [0.5 - 0.15**0.5, 0.5, 0.5 + 0.15**0.5]
+        for weight, node in zip(weights, nodes, strict=True):
+            state = transition(matrix, node * duration) @ start
+            given += weight * duration * (matrix @ state)[3:]
+    gained = steps.state[-1, 3:] - steps.state[0, 3:]
+    assert np.allclose(gained - given, steps.impulse[:-1].sum(axis=0), atol=1e-6)
+
+
+def test_results_do_not_depend_on_the_batch(law, chasers):
+    """All at once, one by one and in the other order: equal to the last bit."""
+    together = manoeuvres([law], chasers)
+    backwards = manoeuvres([law], chasers[::-1])
+    for m in range(len(chasers)):
+        alone = manoeuvres([law], chasers[m])
+        for name in ("steps", "delta_v", "ends", "iterations", "softened"):
+            one = getattr(alone, name)[0]
+            assert np.array_equal(one, getattr(together, name)[m], equal_nan=True)
+            assert np.array_equal(one, getattr(backwards, name)[-1 - m], equal_nan=True)
+
+
+def test_phases_flown_apart_are_those_of_the_whole(law, chaser):
+    """A law that does not rotate: the mid range from where the far range ended, and so on."""
+    whole = manoeuvres([law], chaser)
+    state = chaser
+    for phase in range(3):
+        part = manoeuvres([law], state, phases=(phase, phase))
+        assert part.docked[0] and part.steps[0, phase] == whole.steps[0, phase]
+        assert np.array_equal(part.ends[0, phase], whole.ends[0, phase])
+        state = part.ends[0, phase]
+
+
+def test_phases_end_where_the_law_says(flown, laws):
+    for m, law in enumerate(laws.values()):
+        if not flown.docked[m]:
+            continue
+        for phase in range(3):
+            state, time = flown.ends[m, phase], flown.end_times[m, phase]
+            assert reference_loop.phase_ended(law, phase, state, time)
+        # and not a step before
+        steps = flown.records[m]
+        for k in range(1, len(steps.time)):
+            if steps.phase[k] == steps.phase[k - 1]:
+                ended = reference_loop.phase_ended(
+                    law, int(steps.phase[k]), steps.state[k], steps.time[k]
+                )
+                assert not ended
+
+
+def test_time_limit_ends_a_manoeuvre(law, chaser):
+    flown = manoeuvres([law.with_(time_limit=600.0)], chaser)
+    assert not flown.docked[0] and flown.steps[0].tolist() == [20, 0, 0]
+    assert np.isnan(flown.ends[0, 1:]).all()
+
+
+def test_a_known_delay_is_made_up_for(law, chaser):
+    """With 5 s of delay in the far range the law that knows it flies nearly the same path."""
+    free = manoeuvres([law], chaser, phases=(0, 0))
+    known = manoeuvres([law.with_(delay=5.0, delay_known=True)], chaser, phases=(0, 0))
+    unknown = manoeuvres([law.with_(delay=5.0)], chaser, phases=(0, 0))
+    off = [abs(x.delta_v[0, 0] - free.delta_v[0, 0]) for x in (known, unknown)]
+    assert known.docked[0] and unknown.docked[0]
+    assert off[0] < off[1]
+
+
+def test_an_unsolved_program_takes_the_last_plan(law, chaser):
+    """A state that is no number cannot be solved for: the plan goes on, then nothing is done."""
+    record = guidance.settings([law])[0]
+    room, work = program_room(30), workspace(30, PLANES, BOUNDS)
+    plan, place, command = np.zeros((30, 3)), np.zeros(2, np.int64), np.zeros(3)
+    lost = np.full(6, np.nan)
+    status, *_ = next_control(record, 0, lost, 0.0, room, work, plan, place, command)
+    assert status != 0 and not command.any()
+    status, *_ = next_control(record, 0, chaser, 0.0, room, work, plan, place, command)
+    assert status == 0 and np.array_equal(command, plan[0]) and command.any()
+    kept = plan.copy()
+    for i in range(1, 30):
+        status, *_ = next_control(record, 0, lost, 0.0, room, work, plan, place, command)
+        assert status != 0 and np.array_equal(command, kept[i])
+    next_control(record, 0, lost, 0.0, room, work, plan, place, command)
+    assert not command.any()
+
+
+def test_constraints_hold_where_no_row_gave_way(law, chasers):
+    """Linear motion: at samples no constraint is violated but where the program says so."""
+    scale = guidance.settings([law])[0]["scales"]
+    flown = manoeuvres([law], chasers, with_steps=True)
+    checked = 0
+    for m, steps in enumerate(flown.records):
+        for k in range(len(steps.time) - 1):
+            if steps.softened[k] or steps.status[k] or steps.phase[k + 1] != steps.phase[k]:
+                continue
+            phase = int(steps.phase[k])
+            found = constraint_check.violations(law, phase, steps.state[k + 1], steps.time[k + 1])
+            found.pop("cone penalty", None)
+            assert max(found.values()) < 1e-5 * scale[phase, 0], (m, k)
+            checked += 1
+    assert checked > 0.8 * flown.steps.sum()
+
+
+def test_constraints_are_also_looked_at_between_samples(law, chaser):
+    """What the programs cannot see: the keep-out zone may be touched between samples."""
+    table = constraint_check.follow(law, constraint_check.LinearMotion(law.mean_motion, chaser))
+    worst = table.groupby(["phase", "constraint", "place"])["violation"].max()
+    far = worst["far", "keep out"]
+    assert far["sample"] <= 1e-3
+    assert far["between"] < 0.01 * law.keep_out
+    assert set(table["place"]) == {"start", "sample", "between"}
+
+
+def test_linear_motion_is_the_loop_s(law, chaser):
+    """The checked path is the compiled loop's: same number of steps."""
+    table = constraint_check.follow(law, constraint_check.LinearMotion(law.mean_motion, chaser))
+    flown = manoeuvres([law], chaser)
+    samples = table[(table["place"] == "sample")].groupby(["phase", "constraint"]).size()
+    assert samples["far", "keep out"] == flown.steps[0, 0]
+    assert samples["final", "speed"] == flown.steps[0, 2]

@@ -1,0 +1,116 @@
+"""The loop with disturbances: against the linear one, and against itself in other batches."""
+
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from smallsat.rendezvous.closed_loop import manoeuvres
+from smallsat.rendezvous.disturbances import disturbances
+from smallsat.rendezvous.disturbed_loop import disturbed_manoeuvres
+from smallsat.rendezvous.random_streams import stream
+from smallsat.rendezvous.studies import states_table
+from smallsat.rendezvous.study_cases import base, cases, in_phase
+from smallsat.rendezvous.study_runs import fly_cases
+
+
+@pytest.fixture(scope="module")
+def section(config):
+    return config["rendezvous"]
+
+
+@pytest.fixture(scope="module")
+def starts(section):
+    """Six initial states of the studies, well outside the keep-out zone."""
+    table = states_table(section, 20, 11)
+    far = table[table["distance_m"] > 2.0 * section["inferred"]["keep_out_m"]].head(6)
+    return far[["x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s"]].to_numpy()
+
+
+def streams(count, seed=3):
+    return [stream(seed, k) for k in range(count)]
+
+
+def test_without_disturbances_it_is_the_linear_loop_but_for_the_field(section, starts):
+    """Two-body truth, no drag, no noise: delta-v of the far range within 3 % in the median.
+
+    What is left is the curvature of the orbit over a kilometre and the length of the pulses.
+    """
+    law = base(section)
+    calm = section | {"truth": section["truth"] | {"gravity_degree": 0, "gravity_order": 0,
+                                                   "density_factor": 0.0}}  # fmt: skip
+    world = disturbances(calm, law, thrust_error=False, measurement_error=False)
+    flown, _ = disturbed_manoeuvres(law, starts, world, streams(len(starts)), (0, 0))
+    linear = manoeuvres([law], starts, (0, 0))
+    assert flown.docked.all() and linear.docked.all()
+    change = flown.delta_v[:, 0] / linear.delta_v[:, 0] - 1.0
+    assert abs(np.median(change)) < 0.03
+    assert np.abs(flown.steps[:, 0] - linear.steps[:, 0]).max() <= 3
+
+
+def test_a_manoeuvre_does_not_depend_on_its_batch(section, starts):
+    """Alone or among others, to the last bit: it has a random stream of its own."""
+    law = base(section)
+    world = disturbances(section, law)
+    together, _ = disturbed_manoeuvres(law, starts, world, streams(len(starts)), (0, 1))
+    for m in (0, len(starts) - 1):
+        alone, _ = disturbed_manoeuvres(law, starts[m : m + 1], world, [stream(3, m)], (0, 1))
+        np.testing.assert_array_equal(alone.ends[0], together.ends[m])
+        np.testing.assert_array_equal(alone.delta_v[0], together.delta_v[m])
+
+
+def test_passages_are_what_manoeuvres_with_that_distance_and_limit_do(section, starts):
+    """One manoeuvre to the smallest distance tells the outcome at a larger one, and at a limit."""
+    distances, limit = (0.2, 0.4), 2400.0
+    law = base(section)
+    closest = replace(law, switch_distances=in_phase(law.switch_distances, 2, distances[0]))
+    world = disturbances(section, closest)
+    _, passed = disturbed_manoeuvres(
+        closest, starts, world, streams(len(starts)), (0, 2), distances, [limit]
+    )
+    for i, distance in enumerate(distances):
+        other = replace(
+            law, switch_distances=in_phase(law.switch_distances, 2, distance), time_limit=limit
+        )
+        flown, _ = disturbed_manoeuvres(other, starts, world, streams(len(starts)))
+        docked = passed.times[:, i] <= limit
+        np.testing.assert_array_equal(flown.docked, docked)
+        times, spent = flown.end_times.max(axis=1), flown.delta_v.sum(axis=1)
+        np.testing.assert_array_equal(times[docked], passed.times[docked, i])
+        np.testing.assert_allclose(spent[docked], passed.delta_v[docked, i], rtol=1e-12)
+        np.testing.assert_allclose(spent[~docked], passed.delta_v_at_limits[~docked, 0], rtol=1e-12)
+
+
+def test_the_thrust_error_changes_what_is_burnt_and_nothing_else_draws_its_numbers(section, starts):
+    """Variants share their random numbers: with both errors off, streams do not matter."""
+    law = base(section)
+    calm = disturbances(section, law, thrust_error=False, measurement_error=False)
+    one, _ = disturbed_manoeuvres(law, starts[:2], calm, streams(2), (0, 0))
+    other, _ = disturbed_manoeuvres(law, starts[:2], calm, streams(2, seed=9), (0, 0))
+    np.testing.assert_array_equal(one.ends, other.ends)
+    wrong = disturbances(section, law, measurement_error=False)
+    third, _ = disturbed_manoeuvres(law, starts[:2], wrong, streams(2), (0, 0))
+    assert not np.array_equal(third.delta_v, one.delta_v)
+
+
+@pytest.mark.parametrize("group", ["approach-sweep", "robustness"])
+def test_shards_fly_what_the_whole_flies(section, starts, group):
+    """Rows of three shards, put together, equal the rows of one: schema, values and order."""
+    flown = cases(section, group)[:2]
+    table = pd.DataFrame(starts, columns=["x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s"])
+    if group == "approach-sweep":
+        # On the approach axis, where that phase begins.
+        table[:] = 0.0
+        table["y_m"] = 100.0 + np.arange(len(table))
+    table["sample"] = np.arange(len(table), dtype=np.int32)
+    table["run"] = np.int32(0)
+    short = [replace(case, phases=(case.phases[0], min(case.phases[1], 1))) for case in flown]
+    whole = fly_cases(section, short, [table] * 2)
+    parts = pd.concat(
+        [fly_cases(section, short, [table.iloc[k::3]] * 2) for k in range(3)], ignore_index=True
+    )
+    key = ["case", "sample", "run"]
+    pd.testing.assert_frame_equal(
+        whole.sort_values(key, ignore_index=True), parts.sort_values(key, ignore_index=True)
+    )

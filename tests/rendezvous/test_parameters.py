@@ -1,0 +1,52 @@
+"""What the configuration's check and schema refuse, in one line each."""
+
+import copy
+from pathlib import Path
+
+import pytest
+
+from smallsat.config import read_yaml, validate
+from smallsat.errors import InputError
+from smallsat.rendezvous.parameters import CASES, check, law, start_state
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture
+def config():
+    return copy.deepcopy(read_yaml(ROOT / "config/default.yaml"))
+
+
+def refuse(config, keys, value):
+    """The line with which one changed value is refused."""
+    place = config["rendezvous"]
+    for key in keys[:-1]:
+        place = place[key]
+    place[keys[-1]] = value
+    with pytest.raises(InputError) as refusal:
+        check(validate(config, read_yaml(ROOT / "config/schema.yaml"))["rendezvous"])
+    return str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    "keys, value, words",
+    [
+        (["start", "position_m"], [10.0, -50.0, 0.0], "inside the keep-out zone"),
+        (["inferred", "overshoot_m"], 5000.0, "must be less than"),
+        (["phases", "far", "horizon"], 0, "must be at least 1"),
+        (["phases", "mid", "sample_time_s"], -20.0, "must be greater than 0"),
+        (["phases", "final", "cone_angle_deg"], 90.0, "must be less than"),
+        (["phases", "far", "control_bound_m_s"], 0.0, "must be greater than 0"),
+    ],
+)
+def test_bad_input_is_refused_in_one_line(config, keys, value, words):
+    line = refuse(config, keys, value)
+    assert words in line and "\n" not in line
+    assert ".".join(["rendezvous", *keys]) in line
+
+
+def test_the_default_is_accepted(config):
+    section = config["rendezvous"]
+    check(section)
+    assert {law(section, case).horizons for case in CASES} == {(30, 15, 12)}
+    assert start_state(section).shape == (6,)

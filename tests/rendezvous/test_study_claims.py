@@ -1,0 +1,188 @@
+"""Predicates of chapters 4 and 5 on made-up manoeuvres: each can hold, and each can fail."""
+
+import numpy as np
+import pytest
+import synthetic
+
+from smallsat.config import read_yaml
+from smallsat.evidence.claims import judge_claims
+from smallsat.rendezvous.sensitivity_claims import proportion_interval
+from smallsat.rendezvous.study_cases import AS_DOCUMENTED, FILTERED, UNDISTURBED
+from smallsat.rendezvous.study_observations import predictive_count, predictive_maximum
+from smallsat.results import write_table
+
+COUNT = 120
+RENDEZVOUS = ([15, 30, 45], [20.0, 30.0, 40.0, 50.0, 60.0])
+APPROACH = ([5, 15, 30], [5.0, 10.0, 15.0, 20.0, 25.0, 30.0])
+DOCKING = ([5, 12, 30], [1.0, 3.0, 5.0, 10.0])
+
+
+def judge(root, config, folder, names):
+    entries = read_yaml(root / "data/published/rendezvous/claims.yaml")
+    chosen = [entry for entry in entries if entry["id"] in names]
+    assert {entry["id"] for entry in chosen} == set(names)
+    found = judge_claims(chosen, config, folder, "claims.yaml")
+    return dict(zip(found["id"], found["outcome"], strict=True))
+
+
+def write(folder, **tables):
+    for name, table in tables.items():
+        write_table(table, folder / f"studies/{name.replace('_', '-')}.parquet")
+
+
+# Laws of delta-v, m/s, and time, s, by horizon and sample time: as the document has it, the other
+# way round, and without any effect.
+AS_SAID = {
+    "rendezvous": (lambda n, t: 5 + 200 / t + 30 / n**2, lambda n, t: 500 + 20 * t + 60000 / n**2),
+    "approach": (
+        lambda n, t: (2 if n > 5 else 4) * (10 / t) ** 0.3,
+        lambda n, t: 200 * (t / 10) ** 0.6,
+    ),
+    "docking": (lambda n, t: 0.3 - 0.01 * t, lambda n, t: 250 * (1 + 0.05 * t)),
+}
+REVERSED = {
+    "rendezvous": (lambda n, t: 5 + 0.2 * t * n, lambda n, t: 60000 * n / t**1.5),
+    "approach": (
+        lambda n, t: 2 * (t / 10) ** 0.3 * n,
+        lambda n, t: 2000 * (10 / t) * n,
+    ),
+    "docking": (lambda n, t: 5 + 5 * t * n, lambda n, t: 4000 / n * t**-0.5),
+}
+NOTHING = {
+    phase: (lambda n, t: 5.0, lambda n, t: 6000.0)
+    for phase in ("rendezvous", "approach", "docking")
+}
+EXPECTED = {
+    "rendezvous-saves": ("holds", "fails", "undecided"),
+    "rendezvous-diminishing": ("holds", None, "undecided"),
+    "rendezvous-actuations": ("holds", None, "holds"),
+    "rendezvous-longer": ("holds", "fails", "undecided"),
+    "rendezvous-spread": ("holds", "fails", "undecided"),
+    "n1-15-30": ("undecided", "fails", "undecided"),
+    "n1-30-45": ("holds", "fails", "holds"),
+    "approach-minimum": ("holds", "fails", "undecided"),
+    "approach-time-spread": ("holds", "fails", "undecided"),
+    "n2-5-15": ("holds", "fails", "fails"),
+    "n2-15-30": ("holds", "fails", "holds"),
+    "docking-double": ("holds", "holds", "holds"),
+    "docking-later": ("holds", "fails", "undecided"),
+    "docking-extremes": ("holds", "fails", "undecided"),
+    "docking-tiny": ("holds", "fails", "holds"),
+    "docking-horizon": ("holds", "fails", "holds"),
+    "docking-recommended": ("fails", "fails", "undecided"),
+}
+
+
+@pytest.mark.parametrize("world", [0, 1, 2], ids=["as said", "reversed", "no effect"])
+def test_sweep_claims_find_the_effect_that_is_there(root, config, tmp_path, world):
+    """120 initial states with a scatter of 30 % among them and of 2 % from case to case."""
+    laws = (AS_SAID, REVERSED, NOTHING)[world]
+    tables = {
+        f"{phase}_sweep": synthetic.sweep(phase, *grid, COUNT, *laws[phase])
+        for phase, grid in (
+            ("rendezvous", RENDEZVOUS), ("approach", APPROACH), ("docking", DOCKING)
+        )
+    }  # fmt: skip
+    states = synthetic.states(COUNT)
+    write(tmp_path, domain=synthetic.domain(states), initial_states=states, **tables)
+    found = judge(root, config, tmp_path, EXPECTED)
+    expected = {name: outcomes[world] for name, outcomes in EXPECTED.items() if outcomes[world]}
+    assert {name: found[name] for name in expected} == expected
+
+
+def test_domain_claims(root, config, tmp_path):
+    """Manoeuvres made to cost more from behind and from afar; then a shuffled quadrant."""
+    names = ["behind-longer", "behind-minimum", "distance-minimum", "quadrant-alone"]
+    states = synthetic.states(400)
+    write(tmp_path, domain=synthetic.domain(states), initial_states=states)
+    assert judge(root, config, tmp_path, names) == dict.fromkeys(names, "holds")
+    mirrored = states.assign(
+        quadrant=(5 - states["quadrant"]).astype("int8"),
+        distance_m=2700.0 - states["distance_m"],
+    )
+    write(tmp_path, initial_states=mirrored)
+    found = judge(root, config, tmp_path, names)
+    assert found["behind-longer"] == found["distance-minimum"] == "fails"
+
+
+def disturbed(case, runs, docking_time, docking_delta_v, completed=1.0):
+    random = np.random.default_rng(len(case))
+    parts = []
+    for run in range(runs):
+        done = random.uniform(size=40) < completed
+        noise = random.uniform(0.8, 1.2, (2, 40))
+        parts.append(
+            synthetic.manoeuvres(
+                case, 40, run, completed=done,
+                rendezvous_time_s=900.0, rendezvous_delta_v_m_s=9.0,
+                docking_time_s=docking_time * noise[0],
+                docking_delta_v_m_s=docking_delta_v * noise[1],
+            )
+        )  # fmt: skip
+    return synthetic.pd.concat(parts, ignore_index=True)
+
+
+@pytest.mark.parametrize(
+    ("noisy", "filtered", "share", "outcomes"),
+    [
+        ((1500.0, 4.0), (320.0, 0.3), 1.0, ("holds", "holds", "holds", "holds")),
+        ((330.0, 0.25), (1500.0, 4.0), 0.5, (None, "fails", "fails", "fails")),
+    ],
+)
+def test_robustness_claims(root, config, tmp_path, noisy, filtered, share, outcomes):
+    """A chaser that bounces and a filter that helps; then one that does not, and one that hurts."""
+    rows = [
+        disturbed(UNDISTURBED, 1, 300.0, 0.2),
+        disturbed(AS_DOCUMENTED, 5, *noisy, share),
+        disturbed(FILTERED, 5, *filtered),
+    ]
+    write(tmp_path, robustness=synthetic.pd.concat(rows, ignore_index=True))
+    names = ("increase-docking", "bounce", "robust", "filter")
+    found = judge(root, config, tmp_path, names)
+    for name, outcome in zip(names, outcomes, strict=True):
+        assert outcome is None or found[name] == outcome, name
+
+
+def test_failures_at_rest_on_the_sphere_are_told_from_others(root, config, tmp_path):
+    """Twelve failures on the keep-out sphere without speed; then with speed."""
+    radius = config["rendezvous"]["inferred"]["keep_out_m"]
+    table = synthetic.sweep("rendezvous", *RENDEZVOUS, 60, *AS_SAID["rendezvous"])
+    failed = (table["case"] == "N 45, Ts 60 s") & (table["sample"] < 12)
+    table.loc[failed, "completed"] = False
+    table.loc[failed, [f"rendezvous_end_{c}" for c in ("x_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s")]] = 0.0  # fmt: skip # noqa: E501
+    table.loc[failed, "rendezvous_end_y_m"] = -radius
+    write(tmp_path, rendezvous_sweep=table)
+    names = ["failures-stall", "rendezvous-failures"]
+    assert judge(root, config, tmp_path, names) == dict.fromkeys(names, "holds")
+    table.loc[failed, "rendezvous_end_vx_m_s"] = 1.0
+    write(tmp_path, rendezvous_sweep=table)
+    assert judge(root, config, tmp_path, names)["failures-stall"] == "fails"
+
+
+def test_predictive_count_covers_another_sample():
+    """The 95 % interval holds the failures of a second set of 500 about as often as it says."""
+    random = np.random.default_rng(5)
+    first, second = random.binomial(500, 0.01, (2, 400))
+    hits = 0
+    for a, b in zip(first, second, strict=True):
+        low, high = predictive_count(int(a), 500, 0.95)
+        hits += low <= b <= high
+    assert 0.92 <= hits / 400 <= 1.0
+    # Of few manoeuvres little is known.
+    assert predictive_count(0, 25, 0.95)[1] > predictive_count(0, 500, 0.95)[1]
+
+
+def test_predictive_maximum_is_a_bound_of_another_sample():
+    """Largest of a second set of 500 below the low end in at most a fortieth of the cases."""
+    random = np.random.default_rng(6)
+    low = [predictive_maximum(random.normal(size=500), 0.1, 0.95)[0] for _ in range(600)]
+    largest = random.normal(size=(600, 500)).max(axis=1)
+    assert np.mean(largest < low) <= 0.04
+    assert predictive_maximum(random.normal(size=25), 0.1, 0.95)[1] == np.inf
+
+
+def test_proportion_interval_is_the_exact_one():
+    """Clopper and Pearson's interval for 2 of 500: 0.0485 to 1.4374 %, a tabulated value."""
+    low, high = proportion_interval(2, 500, 0.95)
+    assert 100.0 * low == pytest.approx(0.0485, abs=5e-4)
+    assert 100.0 * high == pytest.approx(1.4374, abs=5e-3)
