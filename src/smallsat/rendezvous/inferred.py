@@ -26,8 +26,9 @@ STRUCTURES = ("side", "delta_v", *CHOICES)
 # Shares of its bounds that an identified parameter's acceptable values fill at most.
 IDENTIFIED, LOOSE = 0.25, 0.6
 COUPLED = 0.7
-LP_CONTROL = (1.0, 1e1, 1e2, 1e3, 1e4)
-LP_TERMINAL = (0.0, 1.0, 10.0, 100.0)
+LP_SET_POINTS = (0.0, 0.5, 1.0)
+LP_CONTROL = (1e2, 1e3, 1e4)
+LP_TERMINAL = (1.0, 1e2, 1e4, 1e5)
 
 
 def configured_residuals(section: Config) -> pd.DataFrame:
@@ -162,9 +163,8 @@ def ensemble(section: Config, evaluated: pd.DataFrame) -> pd.DataFrame:
 
 def linear_programs(section: Config) -> pd.DataFrame:
     """The LP case with many weights, with and without set point: one row a variant."""
-    first = section["inferred"]["set_point_1"]
     sections, rows = [], []
-    for point, control, terminal in product((0.0, first), LP_CONTROL, LP_TERMINAL):
+    for point, control, terminal in product(LP_SET_POINTS, LP_CONTROL, LP_TERMINAL):
         changed = with_values(section, {}, {})
         changed["inferred"]["lp"] = {
             "set_point": point,
@@ -174,7 +174,7 @@ def linear_programs(section: Config) -> pd.DataFrame:
         }
         sections.append(changed)
         rows.append(
-            {"set_point": bool(point), "control_weight": control, "terminal_weight": terminal}
+            {"set_point": point, "control_weight": control, "terminal_weight": terminal}
         )
     flown = fly_sets(sections, ("lp",))
     reading = section["inferred"]["readings"]["delta_v"]

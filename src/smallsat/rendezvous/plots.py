@@ -9,6 +9,7 @@ from matplotlib.pyplot import figure as new_figure
 from matplotlib.pyplot import subplots
 
 from smallsat.config import Config
+from smallsat.rendezvous.flights import CHANGE
 from smallsat.rendezvous.guidance import PHASES, Law
 from smallsat.rendezvous.parameters import law
 
@@ -96,21 +97,18 @@ def manoeuvre(section: Config, case: str, flights: pd.DataFrame, paths: pd.DataF
         axes.plot(0.0, 0.0, "ks", ms=3, zorder=4)
         axes.set_aspect("equal", adjustable="datalim")
         axes.set_xlabel("along track $y$ [m]")
-        axes.locator_params(nbins=4)
+        axes.locator_params(nbins=3)
     wide.set_ylabel("radial $x$ [m]")
 
     pulses = thrust_history(section, flight)
     for phase in PHASES:
         own = pulses[pulses["phase"] == phase]
-        thrust.fill_between(
-            own["time_s"],
-            own["force_N"],
-            step="post",
-            color=PHASE_COLOURS[phase],
-            lw=0.4,
+        thrust.vlines(
+            own["time_s"], 0.0, own["force_N"], color=PHASE_COLOURS[phase], lw=0.9,
             label=PHASE_TITLES[phase],
-        )
-    thrust.set(xlabel="time [s]", ylabel="resultant thrust [N]", ylim=(0.0, None))
+        )  # fmt: skip
+        thrust.plot(own["time_s"], own["force_N"], ".", color=PHASE_COLOURS[phase], ms=3)
+    thrust.set(xlabel="time [s]", ylabel="resultant thrust,\nmean over longest pulse [N]", ylim=(0.0, None))
     thrust.set_xlim(0.0, float(flight["time_s"].iloc[-1]))
     thrust.legend(ncols=3, loc="upper right")
     thrust.set_title(INFERRED, fontsize=7, loc="left", color="0.4")
@@ -118,19 +116,18 @@ def manoeuvre(section: Config, case: str, flights: pd.DataFrame, paths: pd.DataF
 
 
 def thrust_history(section: Config, flight: pd.DataFrame) -> pd.DataFrame:
-    """Resultant thrust, N, where each axis burns at full force from the step's start for as long
-    as its velocity change needs: a row at every change, holding until the next.
+    """Resultant thrust of each step, N, averaged over the longest pulse that its phase allows.
+
+    Thrusters are on or off; a step's velocity change over the bound on it is the part of the longest
+    pulse for which they burn.
     """
-    craft = section["spacecraft"]
-    force, mass = craft["thruster_N"], craft["mass_kg"]
+    force = section["spacecraft"]["thruster_N"]
     rows = []
     for row in flight[flight["phase"] != "end"].to_dict("records"):
-        burns = np.sort([abs(row[f"dv{axis}_m_s"]) * mass / force for axis in "xyz"])
-        for begun, burning in zip([0.0, *burns], (3, 2, 1, 0), strict=True):
-            rows.append((row["phase"], row["time_s"] + begun, force * np.sqrt(burning)))
-    table = pd.DataFrame(rows, columns=["phase", "time_s", "force_N"])
-    # Of pulses that end together the last row holds.
-    return table.drop_duplicates(["phase", "time_s"], keep="last", ignore_index=True)
+        bound = section["phases"][row["phase"]]["control_bound_m_s"]
+        length = np.linalg.norm([row[name] for name in CHANGE])
+        rows.append((row["phase"], row["time_s"], force * length / bound))
+    return pd.DataFrame(rows, columns=["phase", "time_s", "force_N"])
 
 
 def comparison(section: Config, flights: pd.DataFrame, paths: pd.DataFrame) -> Drawing:

@@ -79,8 +79,8 @@ def frame(section: Config) -> Drawing:
     axes.plot(*place, "o", ms=11, mfc="white", mec="C1", zorder=4)
     axes.plot(*place, "o", ms=3.5, color="C1", zorder=5)
     axes.text(
-        place[0] + 150.0,
-        place[1] - 330.0,
+        place[0] + 120.0,
+        place[1] - 900.0,
         r"$\hat{z}$ out of the page," "\norbit normal",
         color="C1",
     )
@@ -166,7 +166,7 @@ def phases(section: Config, flights: pd.DataFrame, paths: pd.DataFrame) -> Drawi
     draw_cone(near, axis, given.cone_angles[1], 0.0, 1.6 * limit, 0.3)
     draw_cone(near, axis, given.cone_angles[2], given.port, 1.6 * limit)
     near.axvline(given.overshoot, color="0.35", lw=1.0, ls="--")
-    near.text(given.overshoot, 0.86 * limit / 2, " $r_2$: overshoot\n plane", fontsize=8)
+    near.text(given.overshoot, 0.68 * limit / 2, " $r_2$: overshoot\n plane", fontsize=8)
     near.plot([0.0], [0.0], "ks", ms=6)
     near.plot(given.port, 0.0, "^", color="C3", ms=5)
     near.text(given.port, -0.24 * limit / 2, "port", fontsize=8, color="C3", ha="center")

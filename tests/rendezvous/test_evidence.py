@@ -1,0 +1,167 @@
+"""Proofs of the errata of chapters 2 and 3: they hold on the default configuration and can fail.
+
+The flights that two of them read are made up here: the far range of one ends at a margin above the
+keep-out zone, the mid range of the other lies anywhere.
+"""
+
+import copy
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from smallsat.config import read_yaml
+from smallsat.rendezvous import claims, errata
+from smallsat.rendezvous.flights import CHANGE, STATE
+from smallsat.rendezvous.parameters import law
+
+CONFIG = Path(__file__).parents[2] / "config/default.yaml"
+
+
+@pytest.fixture(scope="module")
+def section():
+    return read_yaml(CONFIG)["rendezvous"]
+
+
+def made_up(section, depth=0.0):
+    """Two flights with far samples down to r1 less a depth, m, and mid samples from 1.1 r1 inwards."""
+    r1 = section["inferred"]["keep_out_m"]
+    rows = []
+    for flight in ("v-bar", "r-bar"):
+        for phase, ends in (("far", (5.0 * r1, 1.05 * r1 - depth)), ("mid", (1.1 * r1, 0.1 * r1))):
+            for number, y in enumerate(np.linspace(*ends, 6)):
+                rows.append([flight, phase, 30.0 * number, 0.0, y, *[0.0] * 7])
+    return pd.DataFrame(rows, columns=["flight", "phase", "time_s", *STATE, *CHANGE])
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory, section):
+    folder = tmp_path_factory.mktemp("results")
+    made_up(section).to_parquet(folder / "flights.parquet")
+    return folder
+
+
+PROOFS = [
+    "control_bound_unit",
+    "initial_distance",
+    "thrust_as_delta_v",
+    "port_axis",
+    "on_time",
+    "last_state_twice",
+    "quadratic_stage_cost",
+    "docking_cone_apex",
+    "rendezvous_end_distance",
+    "rendezvous_end_cone",
+    "approach_end_vector",
+]
+
+
+@pytest.mark.parametrize("name", PROOFS)
+def test_proof_holds(section, results, name):
+    """Each erratum is proven with the document's own configuration."""
+    proof = getattr(errata, name)({"rendezvous": section}, results)
+    assert proof.holds, proof.statement
+
+
+@pytest.mark.parametrize(
+    ("name", "key", "value"),
+    [
+        # Another thruster, of which the bounds are no whole seconds.
+        ("control_bound_unit", ("spacecraft", "thruster_N"), 0.37),
+        # So strong a thruster that the bounds are accelerations within its reach.
+        ("control_bound_unit", ("spacecraft", "thruster_N"), 14 * 0.1786),
+        ("initial_distance", ("start", "position_m"), [140.0, -1690.0, 60.0]),
+        ("thrust_as_delta_v", ("spacecraft", "thruster_N"), 5.0),
+        ("port_axis", ("port_m",), [0.0, 0.5, 0.0]),
+        # With samples of a second force and impulse are the same number.
+        ("on_time", ("phases", "far", "sample_time_s"), 1.0),
+        ("docking_cone_apex", ("inferred", "rotation_rate_rad_s"), 0.0),
+        # Without a weight on the state nothing is counted twice.
+        ("last_state_twice", ("phases", "far", "state_weights"), [1e-12] * 6),
+    ],
+)
+def test_proof_fails_where_the_document_would_be_right(section, results, name, key, value):
+    """A configuration in which the printed version is as good: the proof must not hold."""
+    changed = copy.deepcopy(section)
+    entry = changed
+    for part in key[:-1]:
+        entry = entry[part]
+    entry[key[-1]] = value
+    assert not getattr(errata, name)({"rendezvous": changed}, results).holds
+
+
+def test_the_end_of_the_far_range_would_hold_inside_the_zone(section, tmp_path):
+    """With samples inside the zone the printed end could come."""
+    made_up(section, depth=60.0).to_parquet(tmp_path / "flights.parquet")
+    assert not errata.rendezvous_end_distance({"rendezvous": section}, tmp_path).holds
+
+
+def test_the_end_of_the_mid_range_needs_a_sample_that_is_far(section, tmp_path):
+    """A flight that is within r2 all the time shows nothing."""
+    near = made_up(section)
+    near[STATE[:3]] = 0.0
+    near.to_parquet(tmp_path / "flights.parquet")
+    start = copy.deepcopy(section)
+    start["start"]["position_m"] = [0.0, -1.0, 0.0]
+    assert not errata.approach_end_vector({"rendezvous": start}, tmp_path).holds
+
+
+def ensemble(folder, **totals):
+    """Made-up acceptable sets: a list of (time, delta-v) a case, one entry a set."""
+    rows = []
+    for case, values in totals.items():
+        for place, (time, delta_v) in enumerate(values):
+            for phase in ("far", "mid", "final"):
+                rows.append([place, 1.0, case.replace("_", "-"), phase, time > 0, 1, time / 3, delta_v / 3])
+    columns = ["set", "misfit", "case", "phase", "ended", "steps", "time_s", "delta_v_m_s"]
+    pd.DataFrame(rows, columns=columns).to_csv(folder / "ensemble.csv", index=False)
+
+
+@pytest.mark.parametrize(
+    ("second", "outcome"),
+    [
+        ([(1500, 12.0), (1600, 12.5)], "holds"),
+        ([(1800, 14.0), (1900, 14.5)], "fails"),
+        ([(1500, 12.0), (1900, 14.5)], "undecided"),
+        # A set that does not dock says nothing.
+        ([(1500, 12.0), (0, 0.0)], "holds"),
+        ([(0, 0.0), (0, 0.0)], "undecided"),
+    ],
+)
+def test_a_claim_needs_all_acceptable_sets(section, tmp_path, second, outcome):
+    """Case 2 takes less than Case 1: in all sets, in none, in some, or in no set that docks."""
+    ensemble(tmp_path, v_bar=[(1744, 13.3), (1750, 13.4)], r_bar=second)
+    judged = claims.r_bar_takes_less({"rendezvous": section}, tmp_path)
+    assert judged.outcome == outcome, judged.evidence
+
+
+def test_claims_that_need_no_flight(section, tmp_path):
+    """Arithmetic of the printed tables, and the count of thrusters."""
+    config = {"rendezvous": section}
+    assert claims.totals_add_up(config, tmp_path).outcome == "holds"
+    assert claims.times_are_whole_samples(config, tmp_path).outcome == "holds"
+    assert claims.velocity_is_of_a_stable_ellipse(config, tmp_path).outcome == "holds"
+    assert claims.six_thrusters_move_in_six_degrees(config, tmp_path).outcome == "fails"
+
+
+def test_the_same_claims_can_come_out_otherwise(section, tmp_path):
+    """Other samples, another velocity, eight thrusters."""
+    changed = copy.deepcopy(section)
+    changed["phases"]["mid"]["sample_time_s"] = 30.0
+    changed["start"]["velocity_m_s"] = [-0.90, -0.42, 0.0]
+    changed["spacecraft"]["thrusters"] = 12
+    config = {"rendezvous": changed}
+    assert claims.times_are_whole_samples(config, tmp_path).outcome == "fails"
+    assert claims.velocity_is_of_a_stable_ellipse(config, tmp_path).outcome == "fails"
+    assert claims.six_thrusters_move_in_six_degrees(config, tmp_path).outcome == "holds"
+
+
+def test_the_law_reads_the_inferred_values(section):
+    """Shares become metres, full angles are halved, the R-bar has the inferred side."""
+    inferred = section["inferred"]
+    given = law(section, "r-bar")
+    assert given.set_points[0] == pytest.approx(inferred["set_point_1"] * inferred["keep_out_m"])
+    share = {"half": 1.0, "full": 0.5}[inferred["readings"]["cone_angle"]]
+    assert np.degrees(given.cone_angles) == pytest.approx(share * np.array([15.0, 15.0, 8.0]))
+    assert given.axis == {"above": (1.0, 0.0, 0.0), "below": (-1.0, 0.0, 0.0)}[inferred["readings"]["r_bar"]]
