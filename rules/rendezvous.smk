@@ -18,7 +18,13 @@ RENDEZVOUS_CASES = {
     )
 }
 
-RENDEZVOUS_FLIGHTS = ["flights.parquet", "paths.parquet", "phases.csv", "truth.csv"]
+RENDEZVOUS_FLIGHTS = [
+    "flights.parquet",
+    "paths.parquet",
+    "phases.csv",
+    "truth.csv",
+    "constraints.csv",
+]
 RENDEZVOUS_INFERRED = [
     "inference.parquet",
     "residuals.csv",

@@ -1,4 +1,4 @@
-"""The inference: sums of delta-v by hand, crossings, residuals, and a search that can be repeated."""
+"""The inference: sums of delta-v by hand, crossings, residuals, a search that can be repeated."""
 
 import copy
 from pathlib import Path
@@ -46,7 +46,7 @@ def test_sums_of_delta_v():
 
 
 def test_sums_are_ordered_and_turned_axes_keep_lengths():
-    """2-norm <= resultant <= 1-norm, and <= plane and normal; a turn changes only the components."""
+    """2-norm <= resultant, plane and normal <= 1-norm; a turn changes only the components."""
     random = np.random.default_rng(3)
     changes = random.standard_normal((50, 3))
     sums = {reading: summed(changes, reading) for reading in READINGS}

@@ -26,7 +26,7 @@ ROUNDING = 1e-9
 
 
 def control_bound_unit(config: Config, results: Path) -> Proof:
-    """Table 3.1: the bounds are impulses over mass, and as accelerations they would end too soon."""
+    """Table 3.1: the bounds are impulses over mass; as accelerations they would end too soon."""
     section = config["rendezvous"]
     craft = section["spacecraft"]
     push = craft["thruster_N"] / craft["mass_kg"]
@@ -124,8 +124,8 @@ def on_time(config: Config, results: Path) -> Proof:
         as_corrected=f"{correct:.2f} s",
         statement=(
             f"For {delta_v:g} m/s the printed ratio, taken in seconds, gives an impulse of "
-            f"{thrust * printed:.3f} N s where {mass * delta_v:.2f} N s are needed; with the sample "
-            f"time it gives them exactly"
+            f"{thrust * printed:.3f} N s where {mass * delta_v:.2f} N s are needed; with the "
+            f"sample time it gives them exactly"
         ),
     )
 
@@ -134,16 +134,17 @@ def last_state_twice(config: Config, results: Path) -> Proof:
     """Eq. 2.12: only the sum to N - 1 makes the Riccati weight stand for the infinite rest."""
     section = config["rendezvous"]
     given = law(section, "v-bar")
-    matrix = transition(clohessy_wiltshire(given.mean_motion), given.sample_times[0])
-    weights = np.diag(np.asarray(given.state_weights)[0])
-    control = np.diag(np.asarray(given.control_weights)[0])
+    # The final phase, whose heavy control weight leaves much to do after its horizon.
+    matrix = transition(clohessy_wiltshire(given.mean_motion), given.sample_times[2])
+    weights = np.diag(np.asarray(given.state_weights)[2])
+    control = np.diag(np.asarray(given.control_weights)[2])
     rest = terminal_weight(matrix, np.diag(weights), np.diag(control))
     effect = matrix[:, 3:]
     gain = np.linalg.solve(control + effect.T @ rest @ effect, effect.T @ rest @ matrix)
     state = start_state(section)
     infinite = float(state @ rest @ state)
     running = 0.0
-    for _ in range(given.horizons[0]):
+    for _ in range(given.horizons[2]):
         command = -gain @ state
         running += float(state @ weights @ state + command @ control @ command)
         state = matrix @ state + effect @ command
@@ -190,6 +191,7 @@ def docking_cone_apex(config: Config, results: Path) -> Proof:
     tangent = np.tan(given.cone_angles[2])
     duration = given.horizons[2] * given.sample_times[2]
     rotated(np.array(given.axis), given.rotation_rate * duration, last)
+    moved = given.port * float(np.linalg.norm(last - np.array(given.axis)))
     printed = corrected = -np.inf
     for i in range(given.horizons[2] + 1):
         rotated(np.array(given.axis), given.rotation_rate * i * given.sample_times[2], axis)
@@ -203,9 +205,9 @@ def docking_cone_apex(config: Config, results: Path) -> Proof:
         as_corrected="a docked chaser is at the tip of the cone at every stage",
         statement=(
             f"With the rotation of Case 3, inferred, the port moves by "
-            f"{1000.0 * given.port * np.linalg.norm(last - np.array(given.axis)):.0f} mm over the horizon "
-            f"of {duration:g} s; the printed constraint has the tip of every stage's cone at the "
-            f"port's last place, while H and the reference of Eq. 3.11 go with the stage"
+            f"{1000.0 * moved:.0f} mm over the horizon of {duration:g} s; the printed constraint "
+            f"has the tip of every stage's cone at the port's last place, while H and the "
+            f"reference of Eq. 3.11 go with the stage"
         ),
     )
 

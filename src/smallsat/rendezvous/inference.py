@@ -5,8 +5,8 @@ of steps are whole, so the time at which a phase's end is crossed, in fractions 
 beside them: it has to lie in the last printed step. All evaluated sets are kept; sets whose misfit
 comes near the best one are called acceptable, and what they share is what the tables identify.
 
-An inference explains what it was fitted to. Equal digits are no reproduction, and with nearly as many
-parameters and readings as printed cells some agreement is to be had for nothing.
+An inference explains what it was fitted to. Equal digits are no reproduction, and with nearly as
+many parameters and readings as printed cells some agreement is to be had for nothing.
 """
 
 import copy
@@ -36,6 +36,7 @@ CHOICES: dict[str, tuple[Any, ...]] = {
 }
 SIDES = ("above", "below")
 TIME_LIMIT_S = 6000.0
+NEAR = 0.03  # spread of the first sets around the configured one, in their bounds
 WORST = 10.0  # largest residual of a cell, in its errors: a stall is no worse than a bad miss
 
 
@@ -61,18 +62,19 @@ def printed_steps(section: Config) -> dict[tuple[str, str], int]:
     cells = phase_cells()
     cells = cells[cells["phase"].isin(PHASES)]
     return {
-        (row.case, row.phase): round(
-            (row.time_s + (row.phase == "far")) / section["phases"][row.phase]["sample_time_s"]
+        (row["case"], row["phase"]): round(
+            (row["time_s"] + (row["phase"] == "far"))
+            / section["phases"][row["phase"]]["sample_time_s"]
         )
-        for row in cells.itertuples()
+        for row in cells.to_dict("records")
     }
 
 
 def fly_sets(sections: Sequence[Config], cases: Sequence[str] = FITTED_CASES) -> pd.DataFrame:
     """Fly cases with parameter sets: a row a set, case and phase.
 
-    Columns: ``set`` (its place), ``case``, ``phase``, ``ended``, ``steps``, ``crossing`` (steps until
-    the end condition, interpolated), ``time_s`` and a delta-v for each of `READINGS`.
+    Columns: ``set`` (its place), ``case``, ``phase``, ``ended``, ``steps``, ``crossing`` (steps
+    until the end condition, interpolated), ``time_s`` and a delta-v for each of `READINGS`.
     """
     laws = [
         law(section, case).with_(time_limit=TIME_LIMIT_S) for section in sections for case in cases
@@ -134,8 +136,8 @@ def residuals(section: Config, flown: pd.DataFrame) -> pd.DataFrame:
     """
     settings = section["inference"]
     wanted = printed_steps(section)
-    delta_v = phase_cells().set_index(["case", "phase"])["delta_v_m_s"].to_dict()
-    totals = total_cells().set_index("case")
+    delta_v: Any = phase_cells().set_index(["case", "phase"])["delta_v_m_s"].to_dict()
+    totals: Any = total_cells().set_index("case").to_dict("index")
     rows = []
 
     def add(
@@ -166,11 +168,12 @@ def residuals(section: Config, flown: pd.DataFrame) -> pd.DataFrame:
         found = {r: row[r] if row["ended"] else np.nan for r in READINGS}
         printed = delta_v[key]
         add(row["set"], f"{key[0]} {key[1]} delta-v", printed, found, _error(settings, printed))
-    for (place, case), part in flown.groupby(["set", "case"], sort=False):
-        if case in CASE_TABLES or case not in totals.index:
+    groups: Any = flown.groupby(["set", "case"], sort=False)
+    for (place, case), part in groups:
+        if case in CASE_TABLES or case not in totals:
             continue
         docked = bool(part["ended"].all())
-        printed = totals.loc[case]
+        printed = totals[case]
         minutes = (part["time_s"].sum() - 1.0) / MINUTE if docked else np.nan
         spread = settings["time_share"] * printed["time_min"]
         add(
@@ -243,26 +246,38 @@ def search(section: Config, side: str) -> pd.DataFrame:
     start[0, width:] = [0.25 + 0.5 * CHOICES[key].index(now[key]) for key in CHOICES]
     # Half of the population around the configured set, half all over the bounds.
     near = count // 2
-    start[1:near] = start[0] + 0.1 * random.standard_normal((near - 1, start.shape[1]))
+    start[1:near] = start[0] + NEAR * random.standard_normal((near - 1, start.shape[1]))
     start = np.clip(start, 0.0, 1.0)
     found = differential_evolution(
         misfit, [(0.0, 1.0)] * start.shape[1], init=start, maxiter=settings["generations"],
         seed=random, polish=False, vectorized=True, updating="deferred", tol=0.0,
         mutation=(0.4, 0.9), recombination=0.8,
     )  # fmt: skip
-    _chain(misfit, found.population, found.population_energies, settings["chain"], random)
+    cells = 2 * len(printed_steps(section)) + 2
+    _chain(
+        misfit,
+        found.population,
+        found.population_energies,
+        settings["chain"],
+        cells - width,
+        random,
+    )
     return pd.concat(kept, ignore_index=True).assign(side=side)
 
 
-def _chain(misfit, population, energies, generations: int, random: np.random.Generator) -> None:
-    """Differential-evolution Monte Carlo (ter Braak 2006) on the population, half misfit as -log p."""
+def _chain(
+    misfit, population, energies, generations: int, freedom: int, random: np.random.Generator
+) -> None:
+    """Differential-evolution Monte Carlo (ter Braak 2006) with half the misfit as -log p."""
     walkers, values = population.copy(), energies.copy()
     count, width = walkers.shape
     scale = 2.38 / np.sqrt(2.0 * width)
+    # The assumed errors are made as large as the best set needs them to be.
+    temperature = max(1.0, values.min() / freedom)
     for _ in range(generations):
         pairs = np.array([random.choice(count, 2, replace=False) for _ in range(count)])
         proposed = walkers + scale * (walkers[pairs[:, 0]] - walkers[pairs[:, 1]])
         proposed = np.clip(proposed + 0.01 * random.standard_normal(walkers.shape), 0.0, 1.0)
         found = misfit(proposed.T)
-        taken = np.log(random.random(count)) < 0.5 * (values - found)
+        taken = np.log(random.random(count)) < 0.5 * (values - found) / temperature
         walkers[taken], values[taken] = proposed[taken], found[taken]

@@ -79,7 +79,9 @@ def readings(table: pd.DataFrame) -> Drawing:
     questions = list(dict.fromkeys(table["question"]))
     colours = [f"C{questions.index(question) % 2}" for question in table["question"]]
     axes.barh(place, table["misfit"], color=colours, height=0.65)
-    labels = [f"{row.question.replace('_', ' ')}: {row.reading}" for row in table.itertuples()]
+    labels = [
+        f"{row['question'].replace('_', ' ')}: {row['reading']}" for row in table.to_dict("records")
+    ]
     axes.set_yticks(place, labels, fontsize=7)
     axes.set_xscale("log")
     axes.set_xlabel("least misfit found, whatever the other readings are")

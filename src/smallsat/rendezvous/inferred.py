@@ -1,4 +1,4 @@
-"""What the searches found, put together: residuals, what is identified, readings, acceptable sets."""
+"""What the searches found, put together: residuals, profiles, readings, acceptable sets."""
 
 from itertools import product
 from typing import Any
@@ -97,7 +97,7 @@ def identified(section: Config, evaluated: pd.DataFrame) -> pd.DataFrame:
 
 
 def profiles(section: Config, evaluated: pd.DataFrame) -> pd.DataFrame:
-    """Least misfit found in each of `BINS` parts of a parameter's bounds: ``parameter``, ``value``."""
+    """Least misfit found in each of `BINS` parts of each parameter's bounds."""
     rows = []
     for name in parameter_names(section):
         low, high = section["inference"]["bounds"][name]
@@ -142,7 +142,7 @@ def readings(evaluated: pd.DataFrame) -> pd.DataFrame:
 
 
 def ensemble(section: Config, evaluated: pd.DataFrame) -> pd.DataFrame:
-    """All five cases flown with acceptable sets, spread over their misfits: a row a set, case, phase.
+    """All five cases with acceptable sets spread over their misfits; a row a set, case, phase.
 
     Delta-v is summed by each set's own best reading, in column ``delta_v_m_s``.
     """
@@ -163,7 +163,8 @@ def ensemble(section: Config, evaluated: pd.DataFrame) -> pd.DataFrame:
 
 def linear_programs(section: Config) -> pd.DataFrame:
     """The LP case with many weights, with and without set point: one row a variant."""
-    sections, rows = [], []
+    sections: list[Config] = []
+    rows: list[dict[str, Any]] = []
     for point, control, terminal in product(LP_SET_POINTS, LP_CONTROL, LP_TERMINAL):
         changed = with_values(section, {}, {})
         changed["inferred"]["lp"] = {
@@ -173,13 +174,12 @@ def linear_programs(section: Config) -> pd.DataFrame:
             "terminal_weight": terminal,
         }
         sections.append(changed)
-        rows.append(
-            {"set_point": point, "control_weight": control, "terminal_weight": terminal}
-        )
+        rows.append({"set_point": point, "control_weight": control, "terminal_weight": terminal})
     flown = fly_sets(sections, ("lp",))
     reading = section["inferred"]["readings"]["delta_v"]
-    printed = total_cells().set_index("case").loc["lp"]
-    for place, part in flown.groupby("set"):
+    printed: Any = total_cells().set_index("case").loc["lp"]
+    groups: Any = flown.groupby("set")
+    for place, part in groups:
         docked = bool(part["ended"].all())
         minutes = (part["time_s"].sum() - 1.0) / MINUTE
         rows[int(place)] |= {

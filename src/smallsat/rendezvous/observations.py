@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -55,7 +56,7 @@ def case_cells(section: Config, results: Path) -> pd.DataFrame:
 
 
 def _cases(section: Config, results: Path) -> Iterator[Observation]:
-    cells = case_cells(section, results).set_index(["case", "phase"])
+    cells: Any = case_cells(section, results).set_index(["case", "phase"])
     note = "with the inferred parameters"
     for case in CASE_TABLES:
         for phase in (*PHASES, TOTAL):

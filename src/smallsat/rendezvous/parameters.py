@@ -1,4 +1,4 @@
-"""The configuration's ``rendezvous`` section as guidance laws, and the checks that a schema cannot express."""
+"""The configuration's ``rendezvous`` section as guidance laws, and checks beyond the schema."""
 
 import numpy as np
 

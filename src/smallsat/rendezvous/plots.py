@@ -108,7 +108,9 @@ def manoeuvre(section: Config, case: str, flights: pd.DataFrame, paths: pd.DataF
             label=PHASE_TITLES[phase],
         )  # fmt: skip
         thrust.plot(own["time_s"], own["force_N"], ".", color=PHASE_COLOURS[phase], ms=3)
-    thrust.set(xlabel="time [s]", ylabel="resultant thrust,\nmean over longest pulse [N]", ylim=(0.0, None))
+    thrust.set(
+        xlabel="time [s]", ylabel="resultant thrust,\nmean over longest pulse [N]", ylim=(0.0, None)
+    )
     thrust.set_xlim(0.0, float(flight["time_s"].iloc[-1]))
     thrust.legend(ncols=3, loc="upper right")
     thrust.set_title(INFERRED, fontsize=7, loc="left", color="0.4")
@@ -118,8 +120,8 @@ def manoeuvre(section: Config, case: str, flights: pd.DataFrame, paths: pd.DataF
 def thrust_history(section: Config, flight: pd.DataFrame) -> pd.DataFrame:
     """Resultant thrust of each step, N, averaged over the longest pulse that its phase allows.
 
-    Thrusters are on or off; a step's velocity change over the bound on it is the part of the longest
-    pulse for which they burn.
+    Thrusters are on or off; a step's velocity change over the bound on it is the part of the
+    longest pulse for which they burn.
     """
     force = section["spacecraft"]["thruster_N"]
     rows = []

@@ -23,6 +23,7 @@ from smallsat.rendezvous.stage_wise import workspace
 
 Drawing = tuple[Figure, pd.DataFrame]
 KM = 1000.0
+EARTH_RADIUS_M = 6378137.0
 # Planes of a horizon that are drawn, counted from the chaser.
 DRAWN_PLANES = 7
 
@@ -50,19 +51,15 @@ def frame(section: Config) -> Drawing:
     """Figure 2.1: the target's frame on its orbit, and the chaser at the start of the cases."""
     given = law(section, "v-bar")
     radius = orbit_radius(given.mean_motion)
-    earth = radius - (radius - 6378137.0)
+    earth = EARTH_RADIUS_M
     figure, axes = subplots(figsize=(4.6, 4.0))
     turn = np.radians(np.linspace(55.0, 125.0, 141))
-    for size, style in (
-        (earth, {"color": "0.35", "lw": 1.4}),
-        (radius, {"color": "C0", "lw": 1.0}),
-    ):
-        axes.plot(size / KM * np.cos(turn), size / KM * np.sin(turn), **style)
+    for size, colour in ((earth, "0.35"), (radius, "C0")):
+        axes.plot(size / KM * np.cos(turn), size / KM * np.sin(turn), color=colour, lw=1.2)
     axes.fill_between(
         earth / KM * np.cos(turn), earth / KM * np.sin(turn), 3200.0, color="#dfe7ee", lw=0
     )
     place = np.array([0.0, radius / KM])
-    axes.plot(0.0, 0.0, marker="")
     axes.plot([0.0, place[0]], [3200.0, place[1]], color="0.5", lw=0.7, ls="--")
     length = 1100.0
     # Counter-clockwise motion as seen from the orbit normal: the velocity points to the left.
@@ -72,7 +69,9 @@ def frame(section: Config) -> Drawing:
         ("y", (-1.0, 0.0), "along the velocity"),
     ):
         tip = place + length * np.array(direction)
-        axes.annotate("", tip, place, arrowprops={"arrowstyle": "-|>", "color": "C1", "lw": 1.6})
+        axes.annotate(
+            "", tuple(tip), tuple(place), arrowprops={"arrowstyle": "-|>", "color": "C1", "lw": 1.6}
+        )
         rows.append({"item": name, "right": direction[0], "up": direction[1], "use": use})
     axes.text(80.0, place[1] + 0.85 * length, r"$\hat{x}$ (R-bar)", color="C1")
     axes.text(-1.0 * length, place[1] + 130.0, r"$\hat{y}$ (V-bar)", color="C1", ha="center")
@@ -85,7 +84,7 @@ def frame(section: Config) -> Drawing:
         color="C1",
     )
     axes.text(-2050.0, 5350.0, "Earth", color="0.35")
-    height = (radius - 6378137.0) / KM
+    height = (radius - EARTH_RADIUS_M) / KM
     axes.text(
         1500.0, 6900.0, f"target's orbit,\n{height:.0f} km high (inferred)", color="C0", fontsize=8
     )
@@ -97,7 +96,7 @@ def frame(section: Config) -> Drawing:
 
 
 def horizon(section: Config, flights: pd.DataFrame) -> Drawing:
-    """Figure 2.2: past, plan and what was flown, along the approach axis, from Case 1's mid range."""
+    """Figure 2.2: past, plan and what was flown along the approach axis in Case 1's mid range."""
     given = law(section, "v-bar")
     own = flights[(flights["flight"] == "v-bar") & (flights["phase"] != "far")]
     mid = own[own["phase"] == "mid"]
