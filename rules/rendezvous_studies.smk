@@ -163,7 +163,7 @@ for group in STUDY_GROUPS:
 
 rule rendezvous_summaries:
     input:
-        sources=STUDY_SOURCES,
+        sources=sources("smallsat.rendezvous.study_summaries"),
         tables=STUDY_TABLES,
     output:
         STUDY_SUMMARIES,
@@ -177,7 +177,7 @@ rule rendezvous_summaries:
     message:
         "rendezvous: summarise the studies"
     shell:
-        "python -m smallsat.rendezvous.studies summaries --config {params.config:q}"
+        "python -m smallsat.rendezvous.study_summaries --config {params.config:q}"
         " --folder {params.folder} > {log} 2>&1"
 
 
