@@ -23,7 +23,6 @@ RENDEZVOUS_FLIGHTS = [
     "paths.parquet",
     "phases.csv",
     "truth.csv",
-    "constraints.csv",
 ]
 RENDEZVOUS_INFERRED = [
     "inference.parquet",
@@ -38,7 +37,7 @@ RENDEZVOUS_INFERRED = [
 STUDY_RESULTS["rendezvous"] = [
     f"{RENDEZVOUS}/{name}"
     for name in ["observations.csv", *RENDEZVOUS_FLIGHTS, *RENDEZVOUS_INFERRED]
-] + STUDIES_JUDGED
+] + ENGINE_TABLES + STUDIES_JUDGED
 
 # Figures of each notebook run: few, so that one figure alone is made in seconds.
 RENDEZVOUS_SCHEMATICS = ["fig-2-1", "fig-2-2", "fig-3-1", "fig-3-2"]

@@ -9,13 +9,12 @@ import pandas as pd
 from smallsat.config import Config
 from smallsat.errors import report_input_errors
 from smallsat.evidence.observation import observations_table
-from smallsat.rendezvous import constraint_check, inferred
+from smallsat.rendezvous import inferred
 from smallsat.rendezvous.flights import fly_cases
 from smallsat.rendezvous.inference import SIDES, search
 from smallsat.rendezvous.nonlinear_flights import fly_nonlinear
 from smallsat.rendezvous.observations import observations
-from smallsat.rendezvous.parameters import check, law, start_state
-from smallsat.rendezvous.printed import CASE_TABLES
+from smallsat.rendezvous.parameters import check
 from smallsat.rendezvous.study_observations import study_observations
 from smallsat.results import read_table, write_table
 
@@ -47,10 +46,6 @@ def main() -> None:
 def _fly(section: Config, folder: Path) -> None:
     fly_cases(section, folder)
     write_table(fly_nonlinear(section), folder / "truth.csv")
-    laws = {case: law(section, case) for case in CASE_TABLES}
-    write_table(
-        constraint_check.table(section, laws, start_state(section)), folder / "constraints.csv"
-    )
 
 
 def _infer(section: Config, folder: Path) -> None:

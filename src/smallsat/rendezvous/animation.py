@@ -63,14 +63,14 @@ class _Scene:
             reach = max(reach, 2.6 * given.keep_out)
         middle, half = (low + high) / 2.0, 0.5 * reach
         axes: Axes3D = figure.add_axes(
-            (0.0, 0.0, 1.0, 0.92), projection="3d", computed_zorder=False
+            (0.0, 0.05, 1.0, 0.88), projection="3d", computed_zorder=False
         )
         axes.set(
             xlim=(middle[0] - half, middle[0] + half),
             ylim=(middle[1] - half, middle[1] + half),
             zlim=(middle[2] - half, middle[2] + half),
         )
-        axes.set_box_aspect((1, 1, 1), zoom=1.25)
+        axes.set_box_aspect((1, 1, 1), zoom=0.92)
         axes.view_init(elev=32, azim=-62)
         axes.set_xlabel("along track [m]")
         axes.set_ylabel("radial [m]")

@@ -46,7 +46,7 @@ class Answer:
     iterations
         Its own count.
     seconds
-        Of the solution, with the data in its own form already.
+        Of the processor, for the solution, with the data in its own form already.
     """
 
     solved: bool
@@ -143,9 +143,9 @@ def piqp(data: SparseProgram, tolerance: float) -> Answer:
         data.quadratic, data.linear, data.equalities, data.equal_to, data.inequalities, minus,
         data.at_most, data.lower, data.upper,
     )  # fmt: skip
-    begin = time.perf_counter()
+    begin = time.process_time()
     status = solver.solve()
-    seconds = time.perf_counter() - begin
+    seconds = time.process_time() - begin
     solved = status == library.PIQP_SOLVED
     return _answer(data, solved, solver.result.x, solver.result.info.iter, seconds)
 
@@ -174,9 +174,9 @@ def clarabel(data: SparseProgram, tolerance: float) -> Answer:
         [library.ZeroConeT(len(data.equal_to)), library.NonnegativeConeT(len(limits))],
         settings,
     )
-    begin = time.perf_counter()
+    begin = time.process_time()
     solution = solver.solve()
-    seconds = time.perf_counter() - begin
+    seconds = time.process_time() - begin
     solved = solution.status == library.SolverStatus.Solved
     return _answer(data, solved, solution.x, solution.iterations, seconds)
 
@@ -198,9 +198,9 @@ def osqp(data: SparseProgram, tolerance: float) -> Answer:
         max_iter=100000,
         verbose=False,
     )
-    begin = time.perf_counter()
+    begin = time.process_time()
     result = solver.solve(raise_error=False)
-    seconds = time.perf_counter() - begin
+    seconds = time.process_time() - begin
     solved = result.info.status == "solved"
     return _answer(data, solved, result.x, result.info.iter, seconds)
 
@@ -261,9 +261,9 @@ def own(program: Program, stages: int, start: np.ndarray, tolerance: float) -> A
     """The stage-wise solver of this package."""
     planes = program.normals.shape[1]
     work = workspace(stages, planes, len(program.components))
-    begin = time.perf_counter()
+    begin = time.process_time()
     status, iterations = solve(program, stages, start, work, tolerance, 100)
-    seconds = time.perf_counter() - begin
+    seconds = time.process_time() - begin
     return Answer(status == SOLVED, work.controls[:stages].copy(), iterations, seconds)
 
 

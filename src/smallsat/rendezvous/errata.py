@@ -262,9 +262,10 @@ def approach_end_vector(config: Config, results: Path) -> Proof:
     # Opposite to the axis every component is small or negative, however far the chaser is.
     far = places[np.linalg.norm(places, axis=1) > 2.0 * given.overshoot]
     behind = -np.abs(far)
+    reach = float(np.linalg.norm(behind, axis=1).max()) if len(far) else 0.0
     return Proof(
         holds=bool(len(far) and (behind <= given.overshoot).all()),
-        as_printed=f"true at {np.linalg.norm(behind, axis=1).max():.0f} m from the target",
+        as_printed=f"true at {reach:.0f} m from the target",
         as_corrected=f"|x| <= r2 is false wherever |x| > {given.overshoot:.1f} m",
         statement=(
             "A vector is not below a number; by components the condition holds anywhere in the "

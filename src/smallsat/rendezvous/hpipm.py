@@ -144,11 +144,11 @@ class Solver:
         return arguments
 
     def solve(self) -> tuple[bool, np.ndarray, int, float]:
-        """Whether solved, controls (N, 3), iterations, seconds."""
+        """Whether solved, controls (N, 3), iterations, processor seconds."""
         library = _library()
-        begin = time.perf_counter()
+        begin = time.process_time()
         library.d_ocp_qp_ipm_solve(self._program, self._solution, self._arguments, self._work)
-        seconds = time.perf_counter() - begin
+        seconds = time.process_time() - begin
         status, iterations = ctypes.c_int(), ctypes.c_int()
         library.d_ocp_qp_ipm_get_status(self._work, ctypes.byref(status))
         library.d_ocp_qp_ipm_get_iter(self._work, ctypes.byref(iterations))

@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.pyplot import subplots
+from matplotlib.ticker import NullFormatter
 
 from smallsat.config import Config
 from smallsat.rendezvous.inference import parameter_names
@@ -59,7 +60,7 @@ def profiles(section: Config, evaluated: pd.DataFrame, table: pd.DataFrame) -> D
         axes.set_yscale("log")
         axes.set_xlabel(TITLES[name], fontsize=7, labelpad=1)
         axes.tick_params(labelsize=6)
-        axes.locator_params(axis="x", nbins=3)
+        axes.locator_params(axis="x", nbins=2 if name == "mean_motion_rad_s" else 3)
     for axes in panels[:, 0]:
         axes.set_ylabel("misfit", fontsize=7)
     for axes in rest:
@@ -84,6 +85,8 @@ def readings(table: pd.DataFrame) -> Drawing:
     ]
     axes.set_yticks(place, labels, fontsize=7)
     axes.set_xscale("log")
+    axes.set_xticks([30, 100, 300, 1000], ["30", "100", "300", "1000"])
+    axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_xlabel("least misfit found, whatever the other readings are")
     axes.grid(visible=False, axis="y")
     return figure, table

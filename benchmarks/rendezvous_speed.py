@@ -1,0 +1,94 @@
+"""The rendezvous study's closed loop against a plain Python loop around OSQP, in one run.
+
+The plain loop flies the V-bar manoeuvre of the configured law; the compiled loop flies many from
+random starts, in linear motion, in the full field with impulses' worth of burns and drag, and with
+all disturbances. Processor seconds, since the machine may do other things too.
+"""
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from smallsat.config import read_yaml
+from smallsat.rendezvous import back_ends, reference_loop
+from smallsat.rendezvous.closed_loop import Manoeuvres, manoeuvres
+from smallsat.rendezvous.disturbances import disturbances
+from smallsat.rendezvous.disturbed_loop import disturbed_manoeuvres
+from smallsat.rendezvous.initial_states import IN_PLANE, Distribution, initial_states
+from smallsat.rendezvous.parameters import law, start_state
+from smallsat.rendezvous.random_streams import stream
+
+CONFIG = Path(__file__).parents[1] / "config/default.yaml"
+MANOEUVRES = 200
+NOISY = 40
+DOUBLINGS = (125, 250, 500)
+SEED = 1
+REPETITIONS = 20
+OSQP_TOLERANCE = 1e-4
+
+
+def measure() -> dict[str, float]:
+    """Manoeuvres a second of both loops, microseconds a program, and their ratios."""
+    section = read_yaml(CONFIG)["rendezvous"]
+    given = law(section)
+    states = initial_states(
+        max(DOUBLINGS), SEED, Distribution(150.0, 2500.0, 0.5, IN_PLANE), given.mean_motion
+    )
+
+    def linear(count: int) -> Manoeuvres:
+        return manoeuvres([given], states[:count])
+
+    def disturbed(noise: bool) -> Callable[[int], Manoeuvres]:
+        acting = disturbances(section, given, thrust_error=noise, measurement_error=noise)
+        return lambda count: disturbed_manoeuvres(
+            given, states[:count], acting, [stream(SEED, sample) for sample in range(count)]
+        )[0]
+
+    found = {}
+    for name, fly in (
+        ("linear", linear),
+        ("field_8x8", disturbed(False)),
+        ("disturbed_8x8", disturbed(True)),
+    ):
+        fly(1)  # compiles
+        count = NOISY if name == "disturbed_8x8" else MANOEUVRES
+        seconds, flown = _timed(fly, count)
+        found[f"{name}_manoeuvres_per_s"] = count / seconds
+        found[f"{name}_us_per_program"] = 1e6 * seconds / flown.steps.sum()
+    for count in DOUBLINGS:
+        seconds, flown = _timed(linear, count)
+        found[f"linear_{count}_us_per_program"] = 1e6 * seconds / flown.steps.sum()
+
+    solving = 0.0
+
+    def solve(program: back_ends.SparseProgram) -> back_ends.Answer:
+        nonlocal solving
+        answer = back_ends.osqp(program, OSQP_TOLERANCE)
+        solving += answer.seconds
+        return answer
+
+    begin = time.process_time()
+    reference_loop.fly(given, start_state(section), solve)
+    plain = time.process_time() - begin
+    own, _ = _timed(
+        lambda count: manoeuvres([given], np.tile(start_state(section), (count, 1))), 20
+    )
+    return found | {
+        "plain_osqp_manoeuvres_per_s": 1.0 / plain,
+        "plain_osqp_solving_share": solving / plain,
+        "ratio": REPETITIONS * plain / own,
+        "ratio_to_osqp_solving_alone": REPETITIONS * solving / own,
+    }
+
+
+def _timed(fly: Callable[[int], Manoeuvres], count: int) -> tuple[float, Manoeuvres]:
+    begin = time.process_time()
+    flown = fly(count)
+    return time.process_time() - begin, flown
+
+
+if __name__ == "__main__":
+    for key, value in measure().items():
+        print(f"{key}: {value:.4g}")
