@@ -16,7 +16,7 @@ rule rendezvous_engine:
         "logs/rendezvous/engine.benchmark.tsv"
     params:
         config=as_json(config["rendezvous"]),
-        folder="data/results/rendezvous",
+        folder=lambda _, output: os.path.dirname(output[0]),
     message:
         "rendezvous: compare the solvers, look at the constraints between samples"
     shell:
