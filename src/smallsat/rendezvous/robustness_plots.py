@@ -107,8 +107,9 @@ def bounce_map(table: pd.DataFrame, baseline: float) -> Drawing:
         for i in y:
             for j in x:
                 value = values[i, j]
-                panel.text(j, i, f"{value:.0f}" if value >= 9.95 else f"{value:.1f}", ha="center", va="center", fontsize=6.5,
-                           color="white" if value < middle else "black")  # fmt: skip
+                text = f"{value:.0f}" if value >= 9.95 else f"{value:.1f}"
+                shade = "white" if value < middle else "black"
+                panel.text(j, i, text, ha="center", va="center", fontsize=6.5, color=shade)
         low, high = float(np.nanmin(values)), float(np.nanmax(values))
         if printed is not None and low < printed < high:
             panel.contour(x, y, values, levels=[printed], colors=VERMILION, linewidths=2)
