@@ -100,7 +100,7 @@ rule rendezvous_states:
         "logs/rendezvous/states.benchmark.tsv"
     params:
         config=as_json(STUDIES_SECTION),
-        folder=STUDIES_FOLDER,
+        folder=lambda _, output: os.path.dirname(output[0]),
     message:
         "rendezvous: draw the initial states"
     shell:
@@ -129,7 +129,7 @@ for group in STUDY_GROUPS:
                 shard=shard,
                 shards=SHARDS,
                 config=as_json(STUDIES_SECTION),
-                folder=STUDIES_FOLDER,
+                folder=lambda _, input: os.path.dirname(input.starts),
             message:
                 f"rendezvous: fly {group}, shard {shard} of {SHARDS}"
             shell:
@@ -163,7 +163,7 @@ for group in STUDY_GROUPS:
 
 rule rendezvous_summaries:
     input:
-        sources=STUDY_SOURCES,
+        sources=sources("smallsat.rendezvous.study_summaries"),
         tables=STUDY_TABLES,
     output:
         STUDY_SUMMARIES,
@@ -173,11 +173,11 @@ rule rendezvous_summaries:
         "logs/rendezvous/summaries.benchmark.tsv"
     params:
         config=as_json(STUDIES_SECTION),
-        folder=STUDIES_FOLDER,
+        folder=lambda _, output: os.path.dirname(output[0]),
     message:
         "rendezvous: summarise the studies"
     shell:
-        "python -m smallsat.rendezvous.studies summaries --config {params.config:q}"
+        "python -m smallsat.rendezvous.study_summaries --config {params.config:q}"
         " --folder {params.folder} > {log} 2>&1"
 
 

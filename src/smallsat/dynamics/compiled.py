@@ -35,11 +35,10 @@ def compiled(function: Function) -> Function:
 
 
 def compiled_arithmetic(function: Function) -> Function:
-    """Compile a function whose divisions need no check, with multiplications fused into additions.
+    """Compile a function whose divisions need no check.
 
     A division by zero gives an infinity, as in NumPy, and no branch stands in the way of vector
-    instructions.
+    instructions. Multiplications are not fused into additions: which ones would be depends on what
+    is inlined, and that differs between a process that compiles and one that loads the cache.
     """
-    return numba.njit(  # type: ignore[return-value]
-        cache=True, error_model="numpy", fastmath={"contract"}
-    )(function)
+    return numba.njit(cache=True, error_model="numpy")(function)  # type: ignore[return-value]

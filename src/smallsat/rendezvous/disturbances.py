@@ -35,8 +35,9 @@ def disturbances(
     thrust_error: bool = True,
     measurement_error: bool = True,
     filtered: bool = False,
+    burns: bool = False,
 ) -> Disturbances:
-    """All disturbances of chapter 5, or some of them; gravity, drag and pulses always."""
+    """All disturbances of chapter 5, or some of them; gravity and drag always."""
     settings, craft = section["studies"]["robustness"], section["spacecraft"]
     noise, reading = thrust_noise(section), thrust_reading(section)
     steps = [interval(noise, reading, duration) for duration in law.sample_times]
@@ -58,6 +59,7 @@ def disturbances(
         mass=craft["mass_kg"],
         force=craft["thruster_N"],
         minimum_on_time=settings["minimum_on_time_s"],
+        burns=burns,
         error_start=scale * stationary_factor(noise, reading),
         error_transitions=np.stack([one.transition for one in steps]),
         error_factors=scale * np.stack([one.factor for one in steps]),

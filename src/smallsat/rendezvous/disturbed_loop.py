@@ -35,6 +35,9 @@ class Disturbances(NamedTuple):
         Of `smallsat.rendezvous.truth`: the Earth and the bodies; the target's inertial state (6,).
     mass, force, minimum_on_time
         Of the chaser; of a thruster; of a pulse.
+    burns
+        Whether a pulse takes the time that its impulse needs, from its step's start; else the
+        impulse acts at once, as the prediction has it.
     error_start, error_transitions, error_factors
         Of the thrust's amplitude error: `actuation_noise.stationary_factor`, and the two arrays of
         `actuation_noise.Interval` for the sample time of each phase, (3, 2, 2). Zeros: no error.
@@ -51,6 +54,7 @@ class Disturbances(NamedTuple):
     mass: float
     force: float
     minimum_on_time: float
+    burns: bool
     error_start: np.ndarray
     error_transitions: np.ndarray
     error_factors: np.ndarray
@@ -154,9 +158,18 @@ def fly_disturbed(
             )
             for k in range(3):
                 burn[k] = size if command[k] >= 0.0 else -size
-                applied[k] = burn[k] * min(on_times[k], duration - delay)
+                applied[k] = burn[k] * on_times[k]
             if delay > 0.0:
                 advance(pair, time, delay, burn, idle, disturbances.environment)
+            if disturbances.burns:
+                for k in range(3):
+                    applied[k] = burn[k] * min(on_times[k], duration - delay)
+            else:
+                truth = relative_state(pair)
+                for k in range(3):
+                    truth[3 + k] += applied[k]
+                    on_times[k] = 0.0
+                pair = pair_from_relative(pair[0], truth)
             advance(pair, time + delay, duration - delay, burn, on_times, disturbances.environment)
             w, v = actuation_noise.step(
                 w, v, between, generator.standard_normal(), generator.standard_normal()

@@ -11,14 +11,13 @@ from matplotlib.figure import Figure
 from matplotlib.pyplot import subplots
 
 from smallsat.drawing.style import BLACK, BLUE, ORANGE, VERMILION
+from smallsat.rendezvous.robustness_claims import PRINTED_DELTA_V_M_S, PRINTED_TIME_MIN
 
 Drawing = tuple[Figure, pd.DataFrame]
 MINUTE, HOUR = 60.0, 3600.0
 GREY = "#9a9a9a"
 # Of Section 5.1: the range "within 1 sigma", and the bounds that Figure 5.1 dots.
 STATED_PCT, SIGMAS = 7.0, 3.0
-# Of Section 5.4.
-PRINTED_DELTA_V_M_S, PRINTED_TIME_MIN = 4.25, 19.536
 
 
 def thrust_errors(errors: pd.DataFrame) -> Drawing:
@@ -108,19 +107,20 @@ def bounce_map(table: pd.DataFrame, baseline: float) -> Drawing:
         for i in y:
             for j in x:
                 value = values[i, j]
-                panel.text(j, i, f"{value:.3g}", ha="center", va="center", fontsize=6.5,
-                           color="white" if value < middle else "black")  # fmt: skip
+                text = f"{value:.0f}" if value >= 9.95 else f"{value:.1f}"
+                shade = "white" if value < middle else "black"
+                panel.text(j, i, text, ha="center", va="center", fontsize=6.5, color=shade)
         low, high = float(np.nanmin(values)), float(np.nanmax(values))
         if printed is not None and low < printed < high:
             panel.contour(x, y, values, levels=[printed], colors=VERMILION, linewidths=2)
         title = label if printed is None else f"{label}\nprinted: {printed:g}"
         panel.set_title(title, loc="left")
-        panel.set_xticks(x, [f"{100 * one:g}" for one in grid.columns])
+        panel.set_xticks(x, [f"{100 * one:g}" for one in grid.columns], fontsize=7)
         panel.set_yticks(y, [f"{one:g}" for one in grid.index])
         panel.set_xlabel(r"docking distance $r_3$ [cm]")
         panel.grid(visible=False)
-        for at in np.flatnonzero(np.isclose(grid.columns.to_numpy(dtype=float), baseline)):
-            panel.get_xticklabels()[at].set_fontweight("bold")
+        at = float(np.interp(baseline, grid.columns.to_numpy(dtype=float), np.array(x)))
+        panel.axvline(at, color="white", lw=1.0, ls="--")
         figure.colorbar(image, ax=panel, location="bottom", shrink=0.9, aspect=25)
     axes[0].set_ylabel("time limit [min]")
     return figure, table

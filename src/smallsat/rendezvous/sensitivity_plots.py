@@ -143,7 +143,8 @@ def summary(sweeps: dict[str, tuple[pd.DataFrame, Sequence[int], Sequence[float]
     figure, axes = subplots(len(PHASES), len(quantities), figsize=(7.0, 7.6))
     colours = (ORANGE, BLUE, BLACK)
     rows = []
-    for line, (phase, (table, horizons, sample_times)) in zip(axes, sweeps.items(), strict=True):
+    for line, phase in zip(axes, PHASES, strict=True):
+        table, horizons, sample_times = sweeps[phase]
         done = table[table["completed"]]
         positions_ = np.arange(len(sample_times), dtype=float)
         for panel, (quantity, (label, unit)) in zip(line, quantities.items(), strict=True):

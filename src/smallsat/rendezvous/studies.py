@@ -9,9 +9,6 @@ import pandas as pd
 
 from smallsat.config import Config
 from smallsat.errors import report_input_errors
-from smallsat.rendezvous import study_summaries
-from smallsat.rendezvous.actuation_noise import readings_table, sampling
-from smallsat.rendezvous.disturbances import thrust_noise, thrust_reading
 from smallsat.rendezvous.initial_states import (
     IN_PLANE,
     Distribution,
@@ -35,8 +32,6 @@ from smallsat.results import read_table, write_table
 # Of chapter 4, and of chapter 5, which has states of its own.
 STARTS, DISTURBED_STARTS = "initial-states.parquet", "disturbed-states.parquet"
 DOMAIN = "domain.parquet"
-# Of the sample paths in Figure 5.1.
-PATH_S, PATH_STEP_S, PATHS = 12.0 * 3600.0, 120.0, 20
 
 
 def main() -> None:
@@ -61,14 +56,8 @@ def main() -> None:
     merged.add_argument("shards", nargs="+", type=Path)
     merged.add_argument("--output", required=True, type=Path)
 
-    tables = commands.add_parser("summaries", help="tables made from the manoeuvres")
-    tables.add_argument("--config", required=True, type=json.loads, help="its section, JSON")
-    tables.add_argument("--folder", required=True, type=Path)
-
     arguments = parser.parse_args()
-    {"states": _states, "shard": _shard, "merge": _merge, "summaries": _summaries}[
-        arguments.command
-    ](arguments)
+    {"states": _states, "shard": _shard, "merge": _merge}[arguments.command](arguments)
 
 
 def _states(arguments: argparse.Namespace) -> None:
@@ -99,21 +88,6 @@ def _shard(arguments: argparse.Namespace) -> None:
 def _merge(arguments: argparse.Namespace) -> None:
     schema, key = (PASSAGES, PASSAGES_KEY) if arguments.group == "passages" else (SCHEMA, KEY)
     merge(arguments.shards, arguments.output, schema, key)
-
-
-def _summaries(arguments: argparse.Namespace) -> None:
-    section, folder = arguments.config, arguments.folder
-    noise, reading = thrust_noise(section), thrust_reading(section)
-    seed = section["studies"]["robustness"]["seed"]
-    for name, table in {
-        "variants": study_summaries.variants(section, folder),
-        "bounce": study_summaries.bounce(folder),
-        "deviations": study_summaries.deviations(folder),
-        "infeasible": study_summaries.infeasible(folder),
-        "thrust-readings": readings_table(noise),
-        "thrust-errors": sampling(noise, reading, PATH_S, PATH_STEP_S, PATHS, seed),
-    }.items():
-        write_table(table, folder / f"{name}.csv")
 
 
 def states_table(section: Config, count: int, seed: int) -> pd.DataFrame:

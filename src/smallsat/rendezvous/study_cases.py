@@ -200,6 +200,12 @@ def _robustness(section: Config) -> list[Case]:
             runs=few,
         ),
         Case(FILTERED, given, world=disturbances(section, given, filtered=True), runs=few),
+        Case(
+            "burns in place of impulses",
+            given,
+            world=disturbances(section, given, burns=True),
+            runs=few,
+        ),
     ]
 
 

@@ -22,6 +22,8 @@ from smallsat.rendezvous.study_tables import column
 MINUTE = 60.0
 # Size of the document's sample, and distance of the ticks of the axes whose ends it prints.
 PRINTED_SAMPLES = 500
+# Share of it from which our largest value bounds another sample's.
+ENOUGH = 0.9
 APPROACH_TICKS = {TIME: 2.0, STEPS: 10.0, DELTA_V: 2.0}
 DOCKING_TICKS = {TIME: 0.5, STEPS: 50.0, DELTA_V: 0.05}
 
@@ -63,7 +65,7 @@ def predictive_maximum(values: np.ndarray, tick: float, confidence: float) -> tu
     below = np.exp(gammaln(n + 1) - gammaln(n - k) + gammaln(n + m - k) - gammaln(n + m + 1))
     unlikely = np.flatnonzero(below <= tail)
     low = ordered[unlikely[0]] if len(unlikely) else ordered[-1]
-    return float(low), float(ordered[0] + tick) if n >= m else inf
+    return float(low), float(ordered[0] + tick) if n >= ENOUGH * m else inf
 
 
 def _failures(config: Config, results: Path) -> Iterator[Observation]:
