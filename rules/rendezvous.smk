@@ -34,10 +34,14 @@ RENDEZVOUS_INFERRED = [
     "lp-variants.csv",
 ]
 
-STUDY_RESULTS["rendezvous"] = [
-    f"{RENDEZVOUS}/{name}"
-    for name in ["observations.csv", *RENDEZVOUS_FLIGHTS, *RENDEZVOUS_INFERRED]
-] + ENGINE_TABLES + STUDIES_JUDGED
+STUDY_RESULTS["rendezvous"] = (
+    [
+        f"{RENDEZVOUS}/{name}"
+        for name in ["observations.csv", *RENDEZVOUS_FLIGHTS, *RENDEZVOUS_INFERRED]
+    ]
+    + ENGINE_TABLES
+    + STUDIES_JUDGED
+)
 
 # Figures of each notebook run: few, so that one figure alone is made in seconds.
 RENDEZVOUS_SCHEMATICS = ["fig-2-1", "fig-2-2", "fig-3-1", "fig-3-2"]
