@@ -16,3 +16,12 @@ def root() -> Path:
 @pytest.fixture(scope="session")
 def config() -> dict:
     return yaml.safe_load((ROOT / "config/default.yaml").read_text())
+
+
+@pytest.fixture(scope="session")
+def tested_run(root) -> Path:
+    """Folder of the run that `make test` makes: all in full, statistical parts for a share."""
+    folder = root / "runs/tests"
+    if not (folder / "data/results/verdicts.csv").exists():
+        pytest.fail(f"{folder.relative_to(root)} is missing; run `make test`")
+    return folder

@@ -18,11 +18,11 @@ from smallsat.slew import errata
     ],
 )
 def test_proof_fails_where_the_document_would_be_right(
-    root, config, monkeypatch, proof, literal, right
+    tested_run, config, monkeypatch, proof, literal, right
 ):
     """The printed literal replaced by the value that the proof calls correct."""
     prove = getattr(errata, proof)
-    results = root / "data/results/slew"
+    results = tested_run / "data/results/slew"
     assert prove(config, results).holds
     monkeypatch.setattr(errata, literal, right)
     assert not prove(config, results).holds
@@ -37,10 +37,10 @@ def test_proof_fails_where_the_document_would_be_right(
         ("gradient_axis", ("manoeuvre", "duration_s"), 0.01),
     ],
 )
-def test_proof_fails_in_the_special_case(root, config, proof, key, value):
+def test_proof_fails_in_the_special_case(tested_run, config, proof, key, value):
     """A configuration in which the printed formula is as good as the general one."""
     changed = copy.deepcopy(config)
     changed["slew"][key[0]][key[1]] = value
-    results = root / "data/results/slew"
+    results = tested_run / "data/results/slew"
     assert getattr(errata, proof)(config, results).holds
     assert not getattr(errata, proof)(changed, results).holds

@@ -16,8 +16,8 @@ ROUNDING = 5e-7
 
 
 @pytest.fixture(scope="module")
-def results(root):
-    folder = root / "data/results/transfer"
+def results(tested_run):
+    folder = tested_run / "data/results/transfer"
     return {
         name: pd.read_csv(folder / f"{name}.csv")
         for name in ("indirect", "as-published", "converged", "continuous", "multistart")
@@ -61,9 +61,9 @@ def test_single_polynomials_beat_the_printed_local_minima(results):
             assert best[row.degree] < row.final_time - 1e-3
 
 
-def test_early_stopping_lands_on_printed_values(root):
+def test_early_stopping_lands_on_printed_values(tested_run):
     """The experiment behind the inference: most cases enter the printed band when stopped early."""
-    table = pd.read_csv(root / "data/results/transfer/early-stopping.csv")
+    table = pd.read_csv(tested_run / "data/results/transfer/early-stopping.csv")
     cases = table.groupby(["degree", "intervals"])[["in_printed_band", "equal_to_printed"]].any()
     assert cases["in_printed_band"].sum() >= 15
     assert cases["equal_to_printed"].sum() >= 5

@@ -2,6 +2,7 @@
 
 import argparse
 import json
+from math import ceil
 from pathlib import Path
 
 import numpy as np
@@ -32,6 +33,8 @@ from smallsat.results import read_table, write_table
 # Of chapter 4, and of chapter 5, which has states of its own.
 STARTS, DISTURBED_STARTS = "initial-states.parquet", "disturbed-states.parquet"
 DOMAIN = "domain.parquet"
+# Fewer have no quantiles to speak of.
+LEAST_STATES = 10
 
 
 def main() -> None:
@@ -67,7 +70,9 @@ def _states(arguments: argparse.Namespace) -> None:
         (STARTS, studies["samples"], studies["seed"]),
         (DISTURBED_STARTS, robustness["states"], robustness["seed"]),
     ):
-        write_table(states_table(section, count, seed), folder / name)
+        # States have streams of their own: a share of them is the first of them, unchanged.
+        flown = max(LEAST_STATES, ceil(studies["share"] * count))
+        write_table(states_table(section, min(flown, count), seed), folder / name)
 
 
 def _shard(arguments: argparse.Namespace) -> None:
