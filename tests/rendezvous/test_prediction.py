@@ -7,8 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
+from smallsat.dynamics.clohessy_wiltshire import rate_matrix
 from smallsat.rendezvous.guidance import settings
-from smallsat.rendezvous.prediction import clohessy_wiltshire, terminal_weight, transition
+from smallsat.rendezvous.prediction import terminal_weight, transition
 
 N = 0.00114
 
@@ -16,7 +17,7 @@ N = 0.00114
 @pytest.mark.parametrize("duration", [1.0, 5.0, 30.0, 60.0, 900.0])
 def test_transition_is_what_an_integrator_gives(duration):
     """Dormand and Prince's method of order 8 at 1e-12, from six states."""
-    matrix = clohessy_wiltshire(N)
+    matrix = rate_matrix(N)
     scale = np.array([100.0] * 3 + [0.1] * 3)
     for start in np.diag(scale):
         end = solve_ivp(
@@ -39,7 +40,7 @@ def test_transition_in_closed_form(duration):
             [0, 0, -N * s, 0, 0, c],
         ]
     )
-    found = transition(clohessy_wiltshire(N), duration)
+    found = transition(rate_matrix(N), duration)
     scale = np.array([1.0] * 3 + [1 / N] * 3)
     assert np.allclose(found * scale[:, None] / scale, closed * scale[:, None] / scale, atol=1e-9)
 
@@ -47,13 +48,13 @@ def test_transition_in_closed_form(duration):
 def test_stable_ellipse_closes():
     """From (x, y) with velocity (n y / 2, -2 n x) the chaser is back after one orbit."""
     start = np.array([140.0, -1580.0, 60.0, -N * 790.0, -2 * N * 140.0, 0.0])
-    end = transition(clohessy_wiltshire(N), 2 * np.pi / N) @ start
+    end = transition(rate_matrix(N), 2 * np.pi / N) @ start
     assert np.allclose(end, start, atol=1e-8)
 
 
 def test_an_impulse_is_the_limit_of_a_short_strong_push():
     """B = A [0; I] (3.1): a push of a hundredth of a second comes within 1e-4 of it."""
-    matrix, duration, push = clohessy_wiltshire(N), 30.0, 0.01
+    matrix, duration, push = rate_matrix(N), 30.0, 0.01
     held = np.zeros((9, 9))
     held[:6, :6] = matrix
     held[3:6, 6:] = np.eye(3) / push
@@ -66,7 +67,7 @@ def test_an_impulse_is_the_limit_of_a_short_strong_push():
 @pytest.mark.parametrize("phase", range(3))
 def test_terminal_weight_solves_the_riccati_equation(law, phase):
     """Residual of P = A'PA - A'PB (R + B'PB)^-1 B'PA + Q, relative."""
-    a = transition(clohessy_wiltshire(N), law.sample_times[phase])
+    a = transition(rate_matrix(N), law.sample_times[phase])
     b, q, r = a[:, 3:], np.diag(law.state_weights[phase]), np.diag(law.control_weights[phase])
     p = terminal_weight(a, law.state_weights[phase], law.control_weights[phase])
     gain = np.linalg.solve(r + b.T @ p @ b, b.T @ p @ a)

@@ -148,24 +148,18 @@ def _add_plan(
     flown = fly_plan(plan, given.mean_motion)
     arrivals = np.cumsum(plan.durations)
     rows = ring_rows(course, flown[:, -1], arrivals, given.plane, given.pointing)
-    accuracy = sum(row["miss_m"] for row in rows)
     failed = [segment_name(course, k) for k, one in enumerate(plans or [plan]) if not one.converged]
     tables.races.append(
         key
-        | {
-            "cost": plan.time + accuracy,
-            "time_s": plan.time,
-            "accuracy_m": accuracy,
-            "minimum_cost_s": minimum_cost(flown[:, 0], course, cubesat.thrust),
-            "missed": sum(row["missed"] for row in rows),
-            "off_axis": sum(row["off_axis"] for row in rows),
-            "rings": course.rings,
-            "segments": course.rings + 1,
-            "not_converged": len(failed),
-            "segments_not_converged": "; ".join(failed),
-            "residual": residual(plan, flown, cubesat, course),
-            "iterations": plan.solution.iterations,
-        }
+        | _totals(
+            course,
+            rows,
+            failed,
+            minimum_cost(flown[:, 0], course, cubesat.thrust),
+            plan.time,
+            plan.solution.iterations,
+            residual=residual(plan, flown, cubesat, course),
+        )
     )
     tables.rings += [key | row for row in rows]
     tables.segments += [
@@ -243,24 +237,12 @@ def _add_extremals(
     tables.segments += rows
     arrivals = np.cumsum([row["duration_s"] for row in rows])
     passed = ring_rows(course, np.array(ends), arrivals, given.plane, given.pointing)
-    accuracy = sum(row["miss_m"] for row in passed)
     tables.rings += [key | row for row in passed]
     tables.races.append(
         key
-        | {
-            "cost": total + accuracy,
-            "time_s": total,
-            "accuracy_m": accuracy,
-            "minimum_cost_s": minimum_cost(np.array(starts), course, cubesat.thrust),
-            "missed": sum(row["missed"] for row in passed),
-            "off_axis": sum(row["off_axis"] for row in passed),
-            "rings": course.rings,
-            "segments": course.rings + 1,
-            "not_converged": len(failed),
-            "segments_not_converged": "; ".join(failed),
-            "residual": np.nan,
-            "iterations": 0,
-        }
+        | _totals(
+            course, passed, failed, minimum_cost(np.array(starts), course, cubesat.thrust), total, 0
+        )
     )
 
 
@@ -341,24 +323,18 @@ def _fly_as_published(
         miss = 0.0 if final else float(np.linalg.norm(state[:3] - target.centre))
         costs.append(solved.duration + miss)
     rows = ring_rows(course, np.array(ends), np.array(arrivals), given.plane, given.pointing)
-    accuracy = sum(row["miss_m"] for row in rows)
     tables.rings += [key | row for row in rows]
     tables.races.append(
         key
-        | {
-            "cost": sum(costs),
-            "time_s": began,
-            "accuracy_m": accuracy,
-            "minimum_cost_s": minimum_cost(np.array(starts), course, cubesat.thrust),
-            "missed": sum(row["missed"] for row in rows),
-            "off_axis": sum(row["off_axis"] for row in rows),
-            "rings": course.rings,
-            "segments": course.rings + 1,
-            "not_converged": len(failed),
-            "segments_not_converged": "; ".join(failed),
-            "residual": np.nan,
-            "iterations": evaluations,
-        }
+        | _totals(
+            course,
+            rows,
+            failed,
+            minimum_cost(np.array(starts), course, cubesat.thrust),
+            began,
+            evaluations,
+            cost=sum(costs),
+        )
     )
     tables.seconds.append(key | {"seconds": solving})
 
@@ -385,3 +361,31 @@ def variants(
         table["solution"] = name
         parts.append(table.rename(columns={"solution": "variant"}))
     return pd.concat(parts, ignore_index=True)
+
+
+def _totals(
+    course: Course,
+    rows: list[dict[str, Any]],
+    failed: list[str],
+    least_cost: float,
+    time: float,
+    iterations: int,
+    cost: float | None = None,
+    residual: float = np.nan,
+) -> dict[str, Any]:
+    """A race in one row; its cost is time and misses, unless a solver printed another."""
+    accuracy = sum(row["miss_m"] for row in rows)
+    return {
+        "cost": time + accuracy if cost is None else cost,
+        "time_s": time,
+        "accuracy_m": accuracy,
+        "minimum_cost_s": least_cost,
+        "missed": sum(row["missed"] for row in rows),
+        "off_axis": sum(row["off_axis"] for row in rows),
+        "rings": course.rings,
+        "segments": course.rings + 1,
+        "not_converged": len(failed),
+        "segments_not_converged": "; ".join(failed),
+        "residual": residual,
+        "iterations": iterations,
+    }

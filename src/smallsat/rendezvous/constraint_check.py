@@ -10,12 +10,13 @@ import numpy as np
 import pandas as pd
 
 from smallsat.config import Config
+from smallsat.dynamics.clohessy_wiltshire import rate_matrix
 from smallsat.rendezvous.closed_loop import next_control, phase_ended
 from smallsat.rendezvous.environment import environment, target_state
 from smallsat.rendezvous.geometry import cone_faces, rotated
 from smallsat.rendezvous.guidance import PHASES, Law, settings
 from smallsat.rendezvous.phase_programs import BOUNDS, PLANES, program_room
-from smallsat.rendezvous.prediction import clohessy_wiltshire, transition
+from smallsat.rendezvous.prediction import transition
 from smallsat.rendezvous.stage_wise import workspace
 from smallsat.rendezvous.thrusters import pulse_on_times, thrust_acceleration
 from smallsat.rendezvous.truth import Environment, advance, pair_from_relative, relative_state
@@ -40,7 +41,7 @@ class LinearMotion:
     """Clohessy and Wiltshire's equations, impulses."""
 
     def __init__(self, mean_motion: float, start: np.ndarray):
-        self._matrix = clohessy_wiltshire(mean_motion)
+        self._matrix = rate_matrix(mean_motion)
         self._state = np.array(start, dtype=float)
 
     def state(self) -> np.ndarray:

@@ -3,12 +3,13 @@
 import numpy as np
 
 from smallsat.config import Config
+from smallsat.dynamics.clohessy_wiltshire import rate_matrix
 from smallsat.rendezvous.actuation_noise import Noise, interval, stationary_factor, steady_state
 from smallsat.rendezvous.disturbed_loop import Disturbances
 from smallsat.rendezvous.environment import environment, orbit_radius, target_state
 from smallsat.rendezvous.guidance import Law
 from smallsat.rendezvous.navigation_filter import FilterModel
-from smallsat.rendezvous.prediction import clohessy_wiltshire, transition
+from smallsat.rendezvous.prediction import transition
 
 
 def thrust_noise(section: Config) -> Noise:
@@ -44,7 +45,7 @@ def disturbances(
     scale = 1.0 if thrust_error else 0.0
     position = settings["position_deviation_m"] if measurement_error else 0.0
     velocity = settings["velocity_deviation_m_s"] if measurement_error else 0.0
-    matrix = clohessy_wiltshire(law.mean_motion) if law.prediction is None else law.prediction
+    matrix = rate_matrix(law.mean_motion) if law.prediction is None else law.prediction
     model = FilterModel(
         position_error=settings["position_deviation_m"],
         velocity_error=settings["velocity_deviation_m_s"],

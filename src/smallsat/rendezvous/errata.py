@@ -9,10 +9,11 @@ from pathlib import Path
 import numpy as np
 
 from smallsat.config import Config
+from smallsat.dynamics.clohessy_wiltshire import rate_matrix
 from smallsat.evidence.errata import Proof
 from smallsat.rendezvous.geometry import cone_faces, rotated
 from smallsat.rendezvous.parameters import law, start_state
-from smallsat.rendezvous.prediction import clohessy_wiltshire, terminal_weight, transition
+from smallsat.rendezvous.prediction import terminal_weight, transition
 from smallsat.results import read_table
 
 # Printed literals that a proof confronts with what is computed.
@@ -135,7 +136,7 @@ def last_state_twice(config: Config, results: Path) -> Proof:
     section = config["rendezvous"]
     given = law(section, "v-bar")
     # The final phase, whose heavy control weight leaves much to do after its horizon.
-    matrix = transition(clohessy_wiltshire(given.mean_motion), given.sample_times[2])
+    matrix = transition(rate_matrix(given.mean_motion), given.sample_times[2])
     weights = np.diag(np.asarray(given.state_weights)[2])
     control = np.diag(np.asarray(given.control_weights)[2])
     rest = terminal_weight(matrix, np.diag(weights), np.diag(control))

@@ -6,11 +6,12 @@ import numpy as np
 import pandas as pd
 
 from smallsat.config import Config
+from smallsat.dynamics.clohessy_wiltshire import rate_matrix
 from smallsat.rendezvous.closed_loop import Steps, manoeuvres
 from smallsat.rendezvous.delta_v import READINGS, summed
 from smallsat.rendezvous.guidance import PHASES, Law
 from smallsat.rendezvous.parameters import CASES, law, start_state
-from smallsat.rendezvous.prediction import clohessy_wiltshire, transition
+from smallsat.rendezvous.prediction import transition
 from smallsat.results import write_table
 
 STATE = ["x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s"]
@@ -76,7 +77,7 @@ def _end_time(steps: Steps, given: Law) -> float:
 
 def _path(case: str, steps: Steps, given: Law) -> pd.DataFrame:
     """States at `PIECES` places of each step, the first right after the control."""
-    matrix = clohessy_wiltshire(given.mean_motion)
+    matrix = rate_matrix(given.mean_motion)
     parts = []
     for phase, name in enumerate(PHASES):
         chosen = steps.phase == phase

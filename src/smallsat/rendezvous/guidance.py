@@ -5,7 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from smallsat.rendezvous.prediction import clohessy_wiltshire, terminal_weight, transition
+from smallsat.dynamics.clohessy_wiltshire import rate_matrix
+from smallsat.rendezvous.prediction import terminal_weight, transition
 
 PHASES = ("far", "mid", "final")
 RENDEZVOUS, APPROACH, DOCKING = 0, 1, 2
@@ -163,7 +164,7 @@ def settings(laws: list[Law]) -> np.ndarray:
 
 
 def _fill(record: Any, law: Law) -> None:
-    true_matrix = clohessy_wiltshire(law.mean_motion)
+    true_matrix = rate_matrix(law.mean_motion)
     matrix = true_matrix if law.prediction is None else law.prediction
     reaches = (2.0 * law.keep_out + 1000.0, law.keep_out, law.overshoot)
     for phase in range(3):

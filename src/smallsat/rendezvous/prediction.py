@@ -1,4 +1,4 @@
-"""Relative motion near a circular orbit: the guidance law's prediction model.
+"""The guidance law's prediction model, discretised for impulses, and its terminal weight.
 
 Frame: the target's local-vertical local-horizontal frame, x radially outwards, y along the
 velocity, z along the orbit normal. States are relative position, m, and velocity in that rotating
@@ -7,19 +7,6 @@ frame, m/s.
 
 import numpy as np
 import scipy.linalg
-
-from smallsat.config import Config  # noqa: F401
-
-
-def clohessy_wiltshire(mean_motion: float) -> np.ndarray:
-    """Matrix of the continuous equations, (6, 6), for a mean motion in rad/s (2.2)."""
-    n = mean_motion
-    matrix = np.zeros((6, 6))
-    matrix[:3, 3:] = np.eye(3)
-    matrix[3, 0], matrix[3, 4] = 3.0 * n**2, 2.0 * n
-    matrix[4, 3] = -2.0 * n
-    matrix[5, 2] = -(n**2)
-    return matrix
 
 
 def transition(matrix: np.ndarray, duration: float) -> np.ndarray:

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.pyplot import subplots
 
 from smallsat.config import Config
+from smallsat.dynamics.clohessy_wiltshire import rate_matrix
 from smallsat.rendezvous.closed_loop import next_control
 from smallsat.rendezvous.environment import orbit_radius
 from smallsat.rendezvous.flights import CHANGE, STATE
@@ -18,7 +19,7 @@ from smallsat.rendezvous.guidance import PHASES, Law, settings
 from smallsat.rendezvous.parameters import law
 from smallsat.rendezvous.phase_programs import BOUNDS, PLANES, program_room
 from smallsat.rendezvous.plots import INFERRED, PHASE_COLOURS, PHASE_TITLES, draw_cone, draw_zone
-from smallsat.rendezvous.prediction import clohessy_wiltshire, transition
+from smallsat.rendezvous.prediction import transition
 from smallsat.rendezvous.stage_wise import workspace
 
 Drawing = tuple[Figure, pd.DataFrame]
@@ -38,7 +39,7 @@ def predicted(
     work = workspace(stages, PLANES, BOUNDS)
     plan, place = np.zeros(work.controls.shape), np.zeros(2, np.int64)
     next_control(record, phase, state, time, room, work, plan, place, np.zeros(3))
-    matrix = transition(clohessy_wiltshire(given.mean_motion), given.sample_times[phase])
+    matrix = transition(rate_matrix(given.mean_motion), given.sample_times[phase])
     states = [state]
     for change in plan[:stages]:
         moved = states[-1].copy()
