@@ -15,7 +15,6 @@ from smallsat.results import read_table
 
 MINUTE = 60.0
 SCENARIOS = ("scenario-1", "scenario-2")
-NAMES = ("Eeny", "Meeny", "Miny", "Mo")
 
 
 @dataclass(frozen=True)
