@@ -47,6 +47,9 @@ def as_json(value):
 # What the verdicts of a study rest on; each study's rule file adds its own.
 STUDY_RESULTS = {}
 
+# Cases that no solver solved, a table a study.
+NOT_CONVERGED = [f"data/results/{study}/not-converged.csv" for study in STUDIES]
+
 # Artefacts of cases that a what-if run leaves out.
 LEFT_OUT = []
 

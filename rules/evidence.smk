@@ -89,6 +89,7 @@ rule accept_verdicts:
     input:
         verdicts="data/results/verdicts.csv",
         ledger=project("data/published/values.csv"),
+        not_converged=NOT_CONVERGED,
     output:
         touch("data/results/verdicts.accepted"),
     log:
@@ -119,6 +120,7 @@ rule check:
     input:
         verdicts="data/results/verdicts.csv",
         ledger=project("data/published/values.csv"),
+        not_converged=NOT_CONVERGED,
     log:
         "logs/check.log",
     params:

@@ -42,6 +42,7 @@ rule mars_simulation:
             "modes.csv",
             "mode-shares.csv",
             "observations.csv",
+            "not-converged.csv",
         ),
     log:
         "logs/mars/simulation.log",

@@ -119,6 +119,7 @@ rule racing_observations:
         seconds=[f"{RACING}/{kind}-scenario-2-seconds.csv" for kind in ("as-published", "optima")],
     output:
         RACING_MERGED,
+        f"{RACING}/not-converged.csv",
         f"{RACING}/timings.csv",
     log:
         "logs/racing/observations.log",

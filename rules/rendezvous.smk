@@ -132,6 +132,7 @@ rule rendezvous_observations:
         studies=STUDIES_JUDGED,
     output:
         f"{RENDEZVOUS}/observations.csv",
+        f"{RENDEZVOUS}/not-converged.csv",
     log:
         "logs/rendezvous/observations.log",
     benchmark:

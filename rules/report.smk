@@ -5,15 +5,21 @@ EXTRAS = {
     for study in STUDIES
     if (path := ROOT / f"data/published/{study}/extras.yaml").exists()
 }
-EXTRA_TABLES = [entry["table"] for study in EXTRAS for entry in EXTRAS[study] if entry.get("table")]
-EXTRA_FIGURES = [
-    f"{stem}.svg"
-    for study in EXTRAS
-    for entry in EXTRAS[study]
-    for stem in entry.get("figures") or []
-]
-FIGURES = [target for study in STUDIES for target in targets(study, "figure")] + EXTRA_FIGURES
-TABLES = [target for study in STUDIES for target in targets(study, "table")] + EXTRA_TABLES
+
+
+def extra_tables(study):
+    """Tables beyond the document that the report of a study shows."""
+    return [entry["table"] for entry in EXTRAS.get(study, []) if entry.get("table")]
+
+
+def report_figures(study):
+    """Figures that the report of a study shows."""
+    extras = [stem for entry in EXTRAS.get(study, []) for stem in entry.get("figures") or []]
+    return targets(study, "figure") + [f"{stem}.svg" for stem in extras]
+
+
+FIGURES = [figure for study in STUDIES for figure in report_figures(study)]
+TABLES = [table for study in STUDIES for table in targets(study, "table") + extra_tables(study)]
 # The text of each study's method.
 CHAPTERS = [
     project(path) for study in STUDIES if (ROOT / (path := f"report/chapters/{study}.typ")).exists()
@@ -36,6 +42,7 @@ rule report_content:
             for study in STUDIES
             for name in ("errata", "claims")
         ],
+        not_converged=NOT_CONVERGED,
         timings=STUDY_TIMINGS,
         tables=TABLES,
         # The notebooks that draw them are listed in the report.
@@ -57,15 +64,24 @@ rule report_content:
         " --left-out {params.left_out:q} --output {output} > {log} 2>&1"
 
 
+TEMPLATES = [
+    project(path.relative_to(ROOT))
+    for path in sorted((ROOT / "report").rglob("*"))
+    if path.suffix in (".typ", ".css") and path.name != "report.typ"
+]
+TYPESET = (
+    "(python -m smallsat.report compile {input.content} --project {params.project}"
+    " --output {output.pdf}"
+    " && python -m smallsat.report compile {input.content} --project {params.project}"
+    " --output {output.html}) > {log} 2>&1"
+)
+
+
 rule report:
     input:
         sources=sources("smallsat.report.__main__", "smallsat.report.typesetting"),
         template=project("report/report.typ"),
-        parts=[
-            project(path.relative_to(ROOT))
-            for path in sorted((ROOT / "report").rglob("*"))
-            if path.suffix in (".typ", ".css") and path.name != "report.typ"
-        ],
+        parts=TEMPLATES,
         content="report/build/content.json",
         # The page shows the SVG, the PDF takes in the PDF.
         figures=FIGURES,
@@ -82,10 +98,72 @@ rule report:
     message:
         "Typeset the report: report/build/report.pdf and report.html"
     shell:
-        "(python -m smallsat.report compile {input.content} --project {params.project}"
-        " --output {output.pdf}"
-        " && python -m smallsat.report compile {input.content} --project {params.project}"
-        " --output {output.html}) > {log} 2>&1"
+        TYPESET
+
+
+# The report of one study alone, for a what-if that leaves the others as they are.
+for study in STUDIES:
+
+    rule:
+        name:
+            f"{study}_report_content"
+        input:
+            sources=sources("smallsat.report.__main__", "smallsat.report.content"),
+            published=[project(f"data/published/{name}.csv") for name in ("values", "artefacts")],
+            extras=[
+                project(f"data/published/{name}/extras.yaml") for name in EXTRAS if name == study
+            ],
+            documents=project("report/documents.yaml"),
+            chapters=CHAPTERS,
+            default=project("config/default.yaml"),
+            findings=[
+                f"data/results/{study}/{name}.csv"
+                for name in ("verdicts", "errata", "claims", "not-converged")
+            ],
+            timings=[path for path in STUDY_TIMINGS if f"/{study}/" in path],
+            tables=targets(study, "table") + extra_tables(study),
+            figures=report_figures(study),
+        output:
+            f"report/build/{study}.json",
+        log:
+            f"logs/report/{study}-content.log",
+        benchmark:
+            f"logs/report/{study}-content.benchmark.tsv"
+        params:
+            project=lambda _, input: Path(input.documents).parent.parent,
+            config=as_json(config),
+            left_out=as_json(LEFT_OUT),
+            study=study,
+        message:
+            f"{study}: collect the content of its report"
+        shell:
+            "python -m smallsat.report content --project {params.project} --config {params.config:q}"
+            " --left-out {params.left_out:q} --studies {params.study} --output {output}"
+            " > {log} 2>&1"
+
+    rule:
+        name:
+            f"{study}_report"
+        input:
+            sources=sources("smallsat.report.__main__", "smallsat.report.typesetting"),
+            template=project("report/report.typ"),
+            parts=TEMPLATES,
+            content=f"report/build/{study}.json",
+            figures=report_figures(study),
+            drawings=[str(Path(figure).with_suffix(".pdf")) for figure in report_figures(study)],
+        output:
+            pdf=f"report/build/{study}.pdf",
+            html=f"report/build/{study}.html",
+        log:
+            f"logs/report/{study}.log",
+        benchmark:
+            f"logs/report/{study}.benchmark.tsv"
+        params:
+            project=lambda _, input: Path(input.template).parent.parent,
+        message:
+            f"{study}: typeset its report: report/build/{study}.pdf and {study}.html"
+        shell:
+            TYPESET
 
 
 rule animations:

@@ -97,6 +97,7 @@ rule slew_observations:
         seconds=f"{SLEW}/plan-seconds.csv",
     output:
         f"{SLEW}/observations.csv",
+        f"{SLEW}/not-converged.csv",
         f"{SLEW}/timings.csv",
     log:
         "logs/slew/observations.log",

@@ -151,6 +151,7 @@ rule transfer_observations:
         ledger=project("data/published/values.csv"),
     output:
         f"{TRANSFER}/observations.csv",
+        f"{TRANSFER}/not-converged.csv",
         f"{TRANSFER}/timings.csv",
     log:
         "logs/transfer/observations.log",

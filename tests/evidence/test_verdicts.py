@@ -241,3 +241,11 @@ def test_pending_rows_have_no_verdict_of_the_seven():
     assert outcome.verdict == PENDING
     assert PENDING not in VERDICTS
     assert isnan(outcome.computed)
+
+
+def test_a_solve_that_failed_is_no_result():
+    """A value that no solver reached is a difference with its reason, whatever the rule excuses."""
+    failed = Observation(ID, nan, note="not converged: residual 1e-3")
+    for rule in ({"unreproducible": "the guess"}, {"tolerance": 9.0}, {"interval": "a seed"}):
+        outcome = verdict(failed, rule=rule)
+        assert (outcome.verdict, outcome.reason) == ("mismatch", failed.note)

@@ -16,6 +16,7 @@ from smallsat.errors import InputError
 from smallsat.evidence.claims import CLAIM_COLUMNS
 from smallsat.evidence.errata import ERRATA_COLUMNS
 from smallsat.evidence.ledger import ARTEFACT_COLUMNS, VALUE_COLUMNS, read_ledger
+from smallsat.evidence.not_converged import NotConverged, not_converged_table
 from smallsat.evidence.verdicts import VERDICT_COLUMNS, pending
 from smallsat.report.content import collect
 from smallsat.report.typesetting import compile_report
@@ -62,6 +63,9 @@ def write_run(run: Path, published: Path) -> None:
         "errata": pd.DataFrame([erratum | {"key": "copied-row"}]),
         "claims": pd.DataFrame([claim]),
         "timings": pd.DataFrame({"id": ["transfer/c"], "seconds": [0.01234567]}),
+        "not-converged": not_converged_table(
+            [NotConverged("indirect, K = 4", "residual 2.0e-03", 2e-3, "guess; continuation")]
+        ),
         "beyond": pd.DataFrame({"solver": ["ours"], "time": [3.246812345]}),
         "tables/table-1": verdicts.head(2),
     }
@@ -235,3 +239,17 @@ def test_an_erratum_gives_printed_and_correct_on_the_front(reproduction):
     front = Page(reproduction / "report.html").text
     copies = "two mass rows are copies"
     assert f"erratum {copies}: printed: {copies}; correct: {copies}." in front
+
+
+def test_a_case_without_a_solution_is_listed_with_what_was_tried(reproduction):
+    text = Page(reproduction / "report.html").text
+    for words in ("Not converged", "indirect, K = 4", "residual 2.0e-03", "guess; continuation"):
+        assert words in text
+
+
+def test_the_report_of_one_study_is_about_that_study_alone(project, reproduction):
+    """From its own verdicts; no other study's results are needed."""
+    results = project / "data/results"
+    shutil.copy(results / "verdicts.csv", results / "transfer/verdicts.csv")
+    content = collect(project, project, CONFIG, CONFIG, studies=["transfer"])
+    assert [document["key"] for document in content["documents"]] == ["transfer"]

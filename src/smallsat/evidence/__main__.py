@@ -11,6 +11,7 @@ from smallsat.errors import InputError, report_input_errors
 from smallsat.evidence.claims import judge_claims
 from smallsat.evidence.errata import prove_errata
 from smallsat.evidence.ledger import DOCUMENTS, read_ledger
+from smallsat.evidence.not_converged import read_not_converged
 from smallsat.evidence.summary import failures, summary_text
 from smallsat.evidence.verdicts import TEXT_COLUMNS, judge, pending
 from smallsat.results import read_table, write_table
@@ -87,8 +88,9 @@ def _summary(arguments: argparse.Namespace) -> None:
     rows = read_ledger(arguments.published / "values.csv")
     kinds = pd.Series({row["id"]: row["kind"] for row in rows})
     verdicts = read_table(arguments.verdicts, TEXT_COLUMNS)
-    report = arguments.verdicts.parent.parent.parent / "report/build/report.pdf"
-    print(summary_text(verdicts, kinds, report))
+    results = arguments.verdicts.parent
+    report = results.parents[1] / "report/build/report.pdf"
+    print(summary_text(verdicts, kinds, read_not_converged(results), report))
     if len(failures(verdicts)) and not arguments.what_if:
         raise SystemExit(1)
 

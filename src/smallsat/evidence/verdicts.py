@@ -224,8 +224,11 @@ def _judge_result(
             reason = f"listed as erratum '{proof['key']}', but the printed value reproduces"
             return _outcome("mismatch", reason, value, printed, printed.half_unit)
         return _erratum(proof, value, printed)
-    if last is None or printed is None:
-        return _outcome("mismatch", "no computed value", value, printed)
+    # A solve that failed is nobody's result: no rule excuses it.
+    note = last["note"] if last and isinstance(last["note"], str) else ""
+    computed = [one for one in computed if not isnan(one["computed"])]
+    if not computed or printed is None:
+        return _outcome("mismatch", note or "no computed value", value, printed)
 
     half_unit = printed.half_unit
     if "interval" in rule:
@@ -280,8 +283,7 @@ def _judge_result(
     if "unreproducible" in rule:
         reason = f"{rule['reason']}; missing: {rule['unreproducible']}"
         return _outcome("unreproducible", reason, value, printed, half_unit)
-    reason = last["note"] if isinstance(last["note"], str) and last["note"] else "not explained"
-    return _outcome("mismatch", reason, value, printed, half_unit)
+    return _outcome("mismatch", note or "not explained", value, printed, half_unit)
 
 
 def _judge_interval(

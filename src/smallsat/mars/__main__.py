@@ -7,6 +7,7 @@ from pathlib import Path
 import pandas as pd
 
 from smallsat.errors import report_input_errors
+from smallsat.evidence.not_converged import not_converged_table
 from smallsat.evidence.observation import observations_table
 from smallsat.mars.independent_check import check_runs
 from smallsat.mars.modes import shares, timeline
@@ -49,6 +50,7 @@ def _simulate(section: dict, folder: Path) -> None:
     # All digits, for results that are printed as exact fractions.
     observed = observations_table(observations(section, given, runs))
     write_table(observed, folder / "observations.csv")
+    write_table(not_converged_table([]), folder / "not-converged.csv")
 
 
 def _check(section: dict, folder: Path) -> None:

@@ -8,6 +8,7 @@ import pandas as pd
 
 from smallsat.config import Config
 from smallsat.errors import report_input_errors
+from smallsat.evidence.not_converged import not_converged_table
 from smallsat.evidence.observation import observations_table
 from smallsat.racing import checks, recovery
 from smallsat.racing.course import course_table
@@ -132,6 +133,7 @@ def _observe(section: Config, given: Parameters, folder: Path, _: argparse.Names
     courses = courses.sort_values(["number", "rule"], ignore_index=True)
     write_table(courses, folder / "random-courses.csv")
     write_table(observations_table(observations(table)), folder / "observations.csv")
+    write_table(not_converged_table([]), folder / "not-converged.csv")
     write_table(timings(folder), folder / "timings.csv")
 
 

@@ -8,6 +8,7 @@ import pandas as pd
 
 from smallsat.config import Config
 from smallsat.errors import report_input_errors
+from smallsat.evidence.not_converged import not_converged_table
 from smallsat.evidence.observation import observations_table
 from smallsat.rendezvous import inferred
 from smallsat.rendezvous.flights import fly_cases
@@ -64,6 +65,7 @@ def _infer(section: Config, folder: Path) -> None:
 def _observe(section: Config, folder: Path) -> None:
     found = observations(section, folder) + study_observations({"rendezvous": section}, folder)
     write_table(observations_table(found), folder / "observations.csv")
+    write_table(not_converged_table([]), folder / "not-converged.csv")
 
 
 if __name__ == "__main__":

@@ -21,6 +21,7 @@ def main() -> None:
     content.add_argument("--project", required=True, type=Path, help="folder of the project")
     content.add_argument("--run", default=Path(), type=Path, help="folder of the run")
     content.add_argument("--left-out", default=[], type=json.loads, help="targets not made, JSON")
+    content.add_argument("--studies", nargs="*", default=[], help="only these; else all")
     content.add_argument("--output", required=True, type=Path)
 
     compiling = commands.add_parser("compile", help="typeset the PDF and the page")
@@ -32,7 +33,12 @@ def main() -> None:
     if arguments.command == "content":
         default = read_yaml(arguments.project / "config/default.yaml")
         collected = collect(
-            arguments.project, arguments.run, arguments.config, default, arguments.left_out
+            arguments.project,
+            arguments.run,
+            arguments.config,
+            default,
+            arguments.left_out,
+            arguments.studies,
         )
         write_json(collected, arguments.output)
     else:

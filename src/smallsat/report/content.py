@@ -12,6 +12,7 @@ import pandas as pd
 from smallsat.config import Config, read_yaml
 from smallsat.errors import InputError
 from smallsat.evidence.ledger import VALUE_KINDS, read_artefacts, read_ledger
+from smallsat.evidence.not_converged import read_not_converged
 from smallsat.evidence.summary import failures, verdict_counts
 from smallsat.evidence.verdicts import PENDING
 from smallsat.report.inputs import input_groups
@@ -31,7 +32,12 @@ EXTRAS_DIGITS = 7
 
 
 def collect(
-    project: Path, run: Path, config: Config, default: Config, left_out: Collection[str] = ()
+    project: Path,
+    run: Path,
+    config: Config,
+    default: Config,
+    left_out: Collection[str] = (),
+    studies: Collection[str] = (),
 ) -> Content:
     """The content of the report of one run.
 
@@ -47,11 +53,14 @@ def collect(
         The documents' own values.
     left_out
         Targets of artefacts whose cases a what-if run leaves out.
+    studies
+        The studies that the report is about, from their own verdicts; none for the whole report.
     """
     published, results = project / "data/published", run / "data/results"
     ledger = read_ledger(published / "values.csv")
     kinds = pd.Series({row["id"]: row["kind"] for row in ledger})
-    verdicts = read_findings(results / "verdicts.csv")
+    paths = [results / study / "verdicts.csv" for study in studies] or [results / "verdicts.csv"]
+    verdicts = pd.concat([read_findings(path) for path in paths], ignore_index=True)
     verdicts["kind"] = verdicts["id"].map(kinds)
     verdicts["seconds"] = verdicts["id"].map(_seconds(results))
     artefacts = read_artefacts(published / "artefacts.csv")
@@ -59,8 +68,11 @@ def collect(
 
     shown = [row for row in artefacts if row["target"] not in left_out]
 
+    unsolved = read_not_converged(results)
     documents = []
     for name, described in read_yaml(project / "report/documents.yaml").items():
+        if studies and name not in studies:
+            continue
         own = verdicts[verdicts["document"] == name]
         document = {
             "key": name,
@@ -75,6 +87,10 @@ def collect(
         if document["built"]:
             chapter = project / f"report/chapters/{name}.typ"
             document |= _study(own, shown, results / name, published / name)
+            document["not_converged"] = [
+                {**row, "residual": _cell(row["residual"])}
+                for row in records(unsolved[unsolved["study"] == name])
+            ]
             document["chapter"] = f"/report/chapters/{name}.typ" if chapter.exists() else None
         documents.append(document)
     return {

@@ -11,6 +11,7 @@ import pandas as pd
 
 from smallsat.config import Config
 from smallsat.errors import report_input_errors
+from smallsat.evidence.not_converged import not_converged_table
 from smallsat.evidence.observation import observations_table
 from smallsat.optimal_control.gauss_pseudospectral import Mesh
 from smallsat.results import write_table
@@ -180,6 +181,7 @@ def _degradation(section: Config, given: Parameters, folder: Path) -> None:
 def _observe(section: Config, given: Parameters, folder: Path) -> None:
     found = observations_table(observations(section, given, folder))
     write_table(found, folder / "observations.csv")
+    write_table(not_converged_table([]), folder / "not-converged.csv")
     write_table(timings(folder), folder / "timings.csv")
 
 

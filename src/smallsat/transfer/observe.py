@@ -8,6 +8,7 @@ import pandas as pd
 
 from smallsat.errors import report_input_errors
 from smallsat.evidence.ledger import read_ledger
+from smallsat.evidence.not_converged import not_converged_table
 from smallsat.evidence.observation import observations_table
 from smallsat.results import read_table, write_table
 from smallsat.transfer.early_stopping import early_stopping_table
@@ -48,6 +49,7 @@ def _observe(arguments: argparse.Namespace) -> None:
     ]
     results = arguments.results
     write_table(observations_table(observe(rows, results)), results / "observations.csv")
+    write_table(not_converged_table([]), results / "not-converged.csv")
     timings = pd.concat(
         [read_table(results / f"{name}-seconds.csv") for name in ("indirect", "as-published")]
     )
