@@ -3,25 +3,40 @@
 PYTHON ?= python3.11
 VENV := .venv
 export PATH := $(CURDIR)/$(VENV)/bin:$(PATH)
+# The user's own settings of Python and pip stay out of the environment.
+unexport PYTHONPATH PYTHONHOME PYTHONSTARTUP PYTHONUSERBASE PIP_TARGET PIP_PREFIX PIP_ROOT
+export PIP_USER := 0
+PIP := $(VENV)/bin/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := all
-.PHONY: all test lint animations benchmark benchmark-baseline lock clean
+.PHONY: all test what-ifs lint animations benchmark benchmark-baseline lock clean
 
 all: $(VENV)/installed
 	@snakemake all
 	@python -m smallsat.evidence summary data/results/verdicts.csv
 
+# An environment knows its folder by name: in a moved or copied checkout it is made anew.
+ifneq "$(shell cat $(VENV)/installed 2>/dev/null)" "$(CURDIR)"
+.PHONY: $(VENV)/installed
+endif
+
 $(VENV)/installed: requirements.lock pyproject.toml
 	@command -v $(PYTHON) >/dev/null || { echo "make: $(PYTHON) not found; install Python 3.11 with venv, or name another: make PYTHON=python3" >&2; exit 2; }
-	$(PYTHON) -m venv $(VENV)
-	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
-	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
-	@touch $@
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' || { echo "make: $(PYTHON) is $$($(PYTHON) --version 2>&1); needed is Python 3.11, for which requirements.lock is made; name it: make PYTHON=/path/to/python3.11" >&2; exit 2; }
+	@$(PYTHON) -c 'import venv, ensurepip' 2>/dev/null || { echo "make: $(PYTHON) has no venv; install it (Debian: apt-get install python3.11-venv)" >&2; exit 2; }
+	$(PYTHON) -m venv --clear $(VENV)
+	$(PIP) --require-hashes -r requirements.lock
+	$(PIP) --no-deps --no-build-isolation --editable .
+	@printf '%s' "$(CURDIR)" > $@
 
 # The published-value tests read verdicts of their own, in runs/tests/; Snakemake makes them first.
 test: $(VENV)/installed
-	@snakemake --configfile config/tests.yaml -- verdicts
+	@snakemake verdicts --configfile config/tests.yaml
 	@python -m pytest
+
+# Modest changes of every study, one line each: done, refused with the reason, or not converged.
+what-ifs: $(VENV)/installed
+	@python tests/what_ifs/run.py
 
 lint: $(VENV)/installed
 	ruff check .
@@ -40,11 +55,11 @@ benchmark: $(VENV)/installed
 # The side-by-side baseline of benchmarks/slew_speed.py; nothing else uses it.
 # Without its dependencies, which would exchange the project's own CasADi.
 benchmark-baseline: $(VENV)/installed
-	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps yapss==0.2.3 mpmath==1.3.0
+	$(PIP) --no-deps yapss==0.2.3 mpmath==1.3.0
 
 # Needs uv (pip install uv); only for changing dependencies.
 lock:
 	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.in -o requirements.lock
 
 clean:
-	rm -rf data/results figures report/build runs logs .snakemake
+	rm -rf data/results figures report/build runs logs .snakemake .cache

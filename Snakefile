@@ -11,14 +11,12 @@ import re
 import sys
 from pathlib import Path
 
-from smallsat.config import read_yaml, run_folder, validate
 from smallsat.errors import InputError
 from smallsat.evidence.ledger import read_artefacts, read_ledger
-from smallsat.racing.parameters import parameters as racing_parameters
-from smallsat.racing.parameters import with_absolute_course_files
-from smallsat.rendezvous.parameters import check as check_rendezvous
-from smallsat.slew.parameters import check as check_slew
+from smallsat.isolation import isolate
+from smallsat.run import read_run
 from smallsat.sources import source_files
+from smallsat.strict_yaml import read_yaml
 from smallsat.targets import refusal
 
 
@@ -29,20 +27,12 @@ container: "docker://python:3.11"
 
 ROOT = Path(workflow.basedir)
 
-# One process a core, each on one thread: results do not depend on the number of cores.
-os.environ |= {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-
-
-configfile: ROOT / "config/default.yaml"
-
+isolate(ROOT / ".cache")
 
 try:
-    config = validate(config, read_yaml(ROOT / "config/schema.yaml"))
-    check_slew(config["slew"])
-    config = with_absolute_course_files(config)
-    racing_parameters(config["racing"])
-    check_rendezvous(config["rendezvous"])
-    RUN_FOLDER = run_folder(config, read_yaml(ROOT / "config/default.yaml"))
+    given = workflow.config_settings
+    run = read_run(ROOT, given.configfiles, given.config_args or [])
+    config, RUN_FOLDER = run.config, run.folder
     read_ledger(ROOT / "data/published/values.csv")
     ARTEFACTS = read_artefacts(ROOT / "data/published/artefacts.csv")
 except InputError as error:

@@ -5,7 +5,11 @@ from pathlib import Path
 import pytest
 import yaml
 
+from smallsat.isolation import isolate
+
 ROOT = Path(__file__).parents[1]
+# Before matplotlib or Jupyter is imported: the settings of whoever runs the tests stay out.
+isolate(ROOT / ".cache")
 
 
 @pytest.fixture(scope="session")

@@ -1,46 +1,108 @@
-"""The configuration: validated against its schema, and given a folder of its own if it deviates."""
+"""The configuration: read strictly, validated against its schema, with a folder for each run."""
 
 import difflib
 import hashlib
 import json
-from collections.abc import Iterator
+import math
+import re
+import reprlib
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
 import jsonschema
-import yaml
 
 from smallsat.errors import InputError
+from smallsat.strict_yaml import parse_yaml, read_yaml
 
 Config = dict[str, Any]
 
+_Validator = jsonschema.validators.extend(
+    jsonschema.Draft202012Validator,
+    type_checker=jsonschema.Draft202012Validator.TYPE_CHECKER.redefine(
+        "number", lambda _, value: _is_finite(value)
+    ).redefine("integer", lambda _, value: _is_finite(value) and value == int(value)),
+)
+# A key of `--config`, as Snakemake takes it.
+_KEY = re.compile(r"[a-zA-Z_][\w-]*\w")
 
-def read_yaml(path: Path) -> Any:
-    """Read a YAML file; a file that is missing or no YAML is an `InputError`."""
-    try:
-        return yaml.safe_load(Path(path).read_text())
-    except FileNotFoundError:
-        raise InputError(f"{path}: no such file") from None
-    except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        line = f" in line {mark.line + 1}" if mark else ""
-        raise InputError(f"{path}: not valid YAML{line}; correct it") from None
+
+def default_config(project: Path) -> Config:
+    """The documents' own values, from ``config/default.yaml``."""
+    return validate(read_yaml(project / "config/default.yaml"), schema_of(project))
+
+
+def schema_of(project: Path) -> dict[str, Any]:
+    """The JSON schema in ``config/schema.yaml``."""
+    return read_yaml(project / "config/schema.yaml")
+
+
+def overlaid_config(
+    default: Config, schema: dict[str, Any], files: Iterable[Path], entries: Iterable[str]
+) -> Config:
+    """The default with the values that a person gave on top, validated.
+
+    Parameters
+    ----------
+    default, schema
+        The documents' own values, and the JSON schema of the configuration.
+    files
+        YAML or JSON files, as given to ``--configfile``; later ones win.
+    entries
+        Texts such as ``transfer={"problem": {"thrust": 0.2}}``, as given to ``--config``; they win
+        over the files.
+
+    Raises
+    ------
+    InputError
+        Naming the file or key, the value and what is allowed.
+    """
+    config = default
+    for path in files:
+        config = _merged(config, read_overlay(path))
+    for entry in entries:
+        config = _merged(config, parse_entry(entry, schema))
+    return validate(config, schema)
+
+
+def read_overlay(path: Path) -> Config:
+    """The values in a file of a person; one without values, or without keys, is refused."""
+    overlay = read_yaml(path)
+    if not isinstance(overlay, dict):
+        found = "empty" if overlay is None else f"{_shown(overlay)}, which has no keys"
+        raise InputError(f"{path}: {found}; give keys such as 'transfer:' with values below them")
+    return overlay
+
+
+def parse_entry(entry: str, schema: dict[str, Any] | None = None) -> Config:
+    """One ``key=value`` of the command line, as an overlay; the value is YAML or plain text."""
+    key, equals, value = entry.partition("=")
+    if not equals or not _KEY.fullmatch(key):
+        raise InputError(
+            f"--config {_shown(entry)}: no setting; give key=value, "
+            f"""such as 'transfer={{"problem": {{"thrust": 0.2}}}}'"""
+        )
+    if (schema or {}).get("properties", {}).get(key, {}).get("type") == "string":
+        return {key: value}
+    return {key: parse_yaml(value, f"--config {key}")}
 
 
 def validate(config: Config, schema: dict[str, Any]) -> Config:
-    """Check a configuration against its JSON schema and return it with numbers as numbers.
+    """Check a configuration against its JSON schema and return it in one form.
 
-    Values given on the command line inside braces arrive as text; where the schema asks for
-    something else they are read as YAML first.
+    Where the schema asks for a number, 1 becomes 1.0, and where it asks for an integer, 2.0 becomes
+    2; so equal configurations are equal to the letter. A name such as 2024 becomes a text.
 
     Raises
     ------
     InputError
         Naming the first offending key, its value and what is allowed.
     """
-    config = _numbers_as_numbers(config, schema, schema)
-    validator = jsonschema.Draft202012Validator(schema)
-    errors = sorted(validator.iter_errors(config), key=lambda e: [str(p) for p in e.absolute_path])
+    config = _in_one_form(config, schema, schema)
+    errors = sorted(
+        _Validator(schema).iter_errors(config),
+        key=lambda error: [str(part) for part in error.absolute_path],
+    )
     if errors:
         raise InputError(_one_line(errors[0]))
     return config
@@ -65,19 +127,40 @@ def lookup(config: Config, key: str) -> Any:
     return value
 
 
-def _numbers_as_numbers(value: Any, schema: dict[str, Any], root: dict[str, Any]) -> Any:
+def _merged(config: Any, overlay: Any) -> Any:
+    """The overlay's values in place of the configuration's; a list is replaced as a whole."""
+    if isinstance(config, dict) and isinstance(overlay, dict):
+        return config | {
+            key: _merged(config[key], value) if key in config else value
+            for key, value in overlay.items()
+        }
+    return overlay
+
+
+def _is_finite(value: Any) -> bool:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return False
+    try:
+        return math.isfinite(value)
+    except OverflowError:
+        return False
+
+
+def _in_one_form(value: Any, schema: Any, root: dict[str, Any]) -> Any:
     if "$ref" in schema:
         schema = root["$defs"][schema["$ref"].removeprefix("#/$defs/")]
     if isinstance(value, dict):
         properties = schema.get("properties", {})
-        return {k: _numbers_as_numbers(v, properties.get(k, {}), root) for k, v in value.items()}
+        return {k: _in_one_form(v, properties.get(k, {}), root) for k, v in value.items()}
     if isinstance(value, list):
-        return [_numbers_as_numbers(v, schema.get("items", {}), root) for v in value]
-    if isinstance(value, str) and schema.get("type") in ("number", "integer", "boolean"):
-        try:
-            return yaml.safe_load(value)
-        except yaml.YAMLError:
-            return value
+        return [_in_one_form(v, schema.get("items", {}), root) for v in value]
+    wanted = schema.get("type")
+    if wanted == "number" and _is_finite(value):
+        return float(value)
+    if wanted == "integer" and isinstance(value, float) and value.is_integer():
+        return int(value)
+    if wanted == "string" and isinstance(value, int) and not isinstance(value, bool):
+        return str(value)
     return value
 
 
@@ -89,11 +172,19 @@ def _one_line(error: jsonschema.ValidationError) -> str:
         key = f"{path}.{unknown}" if path else unknown
         close = difflib.get_close_matches(unknown, allowed, n=1)
         hint = f"did you mean '{close[0]}'?" if close else "remove it"
-        return f"config key '{key}': unknown; allowed here: {', '.join(allowed)}; {hint}"
+        return f"config key {_shown(key)}: unknown; allowed here: {', '.join(allowed)}; {hint}"
     if error.validator == "required":
         missing = error.message.split("'")[1]
         return f"config key '{f'{path}.{missing}' if path else missing}': missing; add it"
-    return f"config key '{path}': {error.instance!r} is not allowed; {', '.join(_allowed(error))}"
+    where = f"config key '{path}'" if path else "configuration"
+    return f"{where}: {_shown(error.instance)} is not allowed; {', '.join(_allowed(error))}"
+
+
+def _shown(value: Any) -> str:
+    """A value for a message: on one line, and not without end."""
+    short = reprlib.Repr()
+    short.maxstring = short.maxother = short.maxlong = 60
+    return short.repr(value)
 
 
 def _allowed(error: jsonschema.ValidationError) -> Iterator[str]:

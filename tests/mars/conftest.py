@@ -2,9 +2,9 @@ from pathlib import Path
 
 import pytest
 
-from smallsat.config import read_yaml
 from smallsat.mars.parameters import parameters
 from smallsat.mars.simulation import document_runs
+from smallsat.strict_yaml import read_yaml
 
 CONFIG = Path(__file__).parents[2] / "config/default.yaml"
 

@@ -10,10 +10,10 @@ import re
 import pandas as pd
 import pytest
 
-from smallsat.config import read_yaml
 from smallsat.evidence.ledger import DOCUMENTS, read_artefacts, read_ledger
 from smallsat.evidence.printed import parse_printed
 from smallsat.evidence.verdicts import PENDING, VERDICTS
+from smallsat.strict_yaml import read_yaml
 
 BUILT = ("transfer", "mars", "slew", "racing", "rendezvous")
 # The part of a study that is not built yet: its values, by their ids, and its artefacts.

@@ -7,7 +7,6 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from smallsat.config import read_yaml
 from smallsat.rendezvous.delta_v import READINGS, in_turned_axes, summed
 from smallsat.rendezvous.inference import (
     fly_sets,
@@ -19,6 +18,7 @@ from smallsat.rendezvous.inference import (
     with_values,
 )
 from smallsat.rendezvous.inferred import acceptable, identified, profiles
+from smallsat.strict_yaml import read_yaml
 
 CONFIG = Path(__file__).parents[2] / "config/default.yaml"
 

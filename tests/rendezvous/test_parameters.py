@@ -5,9 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from smallsat.config import read_yaml, validate
+from smallsat.config import validate
 from smallsat.errors import InputError
 from smallsat.rendezvous.parameters import CASES, check, law, start_state
+from smallsat.strict_yaml import read_yaml
 
 ROOT = Path(__file__).parents[2]
 

@@ -2,8 +2,8 @@ from pathlib import Path
 
 import pytest
 
-from smallsat.config import read_yaml
 from smallsat.slew.parameters import parameters
+from smallsat.strict_yaml import read_yaml
 
 CONFIG = Path(__file__).parents[2] / "config/default.yaml"
 

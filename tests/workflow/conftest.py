@@ -1,9 +1,12 @@
 """A copy of the project in which a test may edit, kill and damage what it likes."""
 
+import fnmatch
 import os
 import shutil
 import subprocess
 import sys
+import sysconfig
+import venv
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,19 +23,25 @@ class Project:
 
     def command(self, *arguments: str) -> list[str]:
         """A Snakemake call as a list of words."""
-        return [sys.executable, "-m", "snakemake", "--cores", "2", *arguments]
+        return [str(self.folder / ".venv/bin/snakemake"), *arguments, "--cores", "2"]
 
-    def snakemake(self, *arguments: str, timeout: int = 300) -> subprocess.CompletedProcess[str]:
-        """Run Snakemake in the project."""
+    def run(
+        self, command: str | list[str], timeout: int = 300, **environment: str
+    ) -> subprocess.CompletedProcess[str]:
+        """Run words, or a line as a shell would, in the project."""
         return subprocess.run(
-            self.command(*arguments),
+            command if isinstance(command, list) else ["bash", "-c", command],
             cwd=self.folder,
-            env=self.environment,
+            env=self.environment | environment,
             capture_output=True,
             text=True,
             timeout=timeout,
             check=False,
         )
+
+    def snakemake(self, *arguments: str, timeout: int = 300) -> subprocess.CompletedProcess[str]:
+        """Run Snakemake in the project."""
+        return self.run(self.command(*arguments), timeout)
 
     def jobs(self, *arguments: str) -> str:
         """The jobs that a dry run would start, as Snakemake lists them."""
@@ -51,28 +60,41 @@ class Project:
         return lines[0]
 
 
+def make_environment(folder: Path) -> None:
+    """An environment for a copied project: its own package, the installed libraries."""
+    venv.create(folder / ".venv", symlinks=True)
+    python = folder / ".venv/bin/python"
+    (site,) = (folder / ".venv/lib").glob("python*/site-packages")
+    (site / "project.pth").write_text(f"{folder / 'src'}\n{sysconfig.get_path('purelib')}\n")
+    script = folder / ".venv/bin/snakemake"
+    script.write_text(f"#!{python}\nfrom smallsat.command_line import snakemake\nsnakemake()\n")
+    script.chmod(0o755)
+    (folder / ".venv/installed").write_text(str(folder))
+
+
 @pytest.fixture(scope="session")
 def make_project(root: Path, tmp_path_factory) -> Callable[[], Project]:
-    """Function that copies the tracked and the new files of the project into a fresh folder."""
+    """Function that copies what belongs to the project into a fresh folder."""
+    ignored = [line.strip("/\n") for line in (root / ".gitignore").open()]
+
+    def unwanted(folder: str, names: list[str]) -> set[str]:
+        place = Path(folder).relative_to(root)
+        return {
+            name
+            for name in names
+            if name == ".git"
+            or any(fnmatch.fnmatch(name, rule) or str(place / name) == rule for rule in ignored)
+        }
 
     def make() -> Project:
         folder = tmp_path_factory.mktemp("project")
-        listed = subprocess.run(
-            ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
-            cwd=root,
-            capture_output=True,
-            text=True,
-            check=True,
-        )
-        for name in listed.stdout.splitlines():
-            if (root / name).is_file():
-                (folder / name).parent.mkdir(parents=True, exist_ok=True)
-                shutil.copy2(root / name, folder / name)
+        shutil.copytree(root, folder, ignore=unwanted, dirs_exist_ok=True)
+        make_environment(folder)
+        path = [str(folder / ".venv/bin"), *os.environ["PATH"].split(os.pathsep)]
         environment = os.environ | {
-            # The copy's own package, before the installed one.
-            "PYTHONPATH": str(folder / "src"),
-            "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
-            "OMP_NUM_THREADS": "1",
+            "PATH": os.pathsep.join(
+                part for part in path if part != str(Path(sys.executable).parent)
+            )
         }
         return Project(folder, environment)
 

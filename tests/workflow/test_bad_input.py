@@ -3,68 +3,39 @@
 import pytest
 
 
-@pytest.mark.parametrize(
-    ("setting", "words"),
-    [
-        ('transfer={"problm": {"thrust": 0.2}}', ("transfer.problm", "unknown", "'problem'")),
-        (
-            'transfer={"problem": {"thrust": "much"}}',
-            ("transfer.problem.thrust", "'much'", "number"),
-        ),
-        ('transfer={"problem": {"initial_mass": -1}}', ("initial_mass", "-1", "greater than 0")),
-        ('transfer={"degrees": [0]}', ("transfer.degrees.0", "0 is not allowed", "at least 1")),
-        ('transfer={"intervals": [3.5]}', ("transfer.intervals.0", "3.5", "integer")),
-        ('transfer={"intervals": []}', ("transfer.intervals", "at least 1 items")),
-        ('mars={"spacecraft": {"inertia_kg_m2": [10, -5, 7]}}', ("inertia_kg_m2.1", "-5")),
-        ('slew={"manoeuvre": {"duration_s": 0}}', ("manoeuvre.duration_s", "greater than 0")),
-        ('slew={"manoeuvre": {"half": {"nodes": 2}}}', ("half.nodes", "at least 3")),
-        ('slew={"wheels": {"torque_mN_m": 0}}', ("wheels.torque_mN_m", "greater than 0")),
-        (
-            'slew={"spacecraft": {"inertia_kg_m2": [[1, 0, 0], [0, 1, 0], [0, 0, 3]]}}',
-            ("slew.spacecraft.inertia_kg_m2", "of no body"),
-        ),
-        (
-            'slew={"manoeuvre": {"initial_quaternion": [0, 0, 0, 2]}}',
-            ("slew.manoeuvre.initial_quaternion", "unit quaternion"),
-        ),
-        ('racing={"course": {"rings": [0, 0]}}', ("racing.course.rings.0", "at least 1")),
-        ('racing={"course": {"semi_major_m": [0, 5]}}', ("semi_major_m.0", "greater than 0")),
-        ('racing={"course": {"distance_m": [350, 300]}}', ("racing.course.distance_m", "no range")),
-        (
-            'racing={"scenarios": {"scenario-1": {"cubesats": {"Eeny": {"thrust_m_s2": 0}}}}}',
-            ("Eeny.thrust_m_s2", "greater than 0"),
-        ),
-        (
-            'racing={"scenarios": {"scenario-1": {"cubesats": {"Moe": {"thrust_m_s2": 1}}}}}',
-            ("cubesats.Moe", "unknown", "Eeny, Meeny, Miny, Mo"),
-        ),
-        (
-            'racing={"dynamic_programming": {"cubesat": "Moe"}}',
-            ("dynamic_programming.cubesat", "'Moe'", "Meeny"),
-        ),
-        (
-            'racing={"scenarios": {"scenario-1": {"course_file": "none.csv"}}}',
-            ("scenario-1.course_file", "none.csv", "does not exist"),
-        ),
-        ("vesuvius=1", ("vesuvius", "unknown", "transfer, mars")),
-        ("run=../out", ("run", "'../out'")),
-    ],
-)
-def test_configuration(project, setting, words):
-    """A wrong key or value is refused before anything runs."""
-    line = project.refusal("--config", setting)
-    for word in words:
+def test_configuration(project):
+    """A wrong key is refused before anything runs; tests/test_run.py has the other sorts."""
+    line = project.refusal("--config", 'transfer={"problm": {"thrust": 0.2}}')
+    for word in ("transfer.problm", "unknown", "'problem'"):
         assert word in line, line
 
 
-def test_configuration_file_that_is_no_yaml(project):
-    """Snakemake itself reads the file, and says what is wrong without a traceback."""
-    path = project.folder / "broken.yaml"
-    path.write_text("transfer: [1\n")
-    done = project.snakemake("--dry-run", "--configfile", "broken.yaml")
+def test_configuration_file(project):
+    """A file that is no YAML is refused by its name, in one line."""
+    (project.folder / "broken.yaml").write_text("transfer: [1\n")
+    assert "broken.yaml: line 2: not valid YAML" in project.refusal("--configfile", "broken.yaml")
+
+
+def test_past_the_environments_own_command(project):
+    """``python -m snakemake`` reads as strictly: a section twice is refused there too."""
+    (project.folder / "twice.yaml").write_text("mars: {}\nmars: {}\n")
+    python = str(project.folder / ".venv/bin/python")
+    done = project.run([python, "-m", "snakemake", "-n", "--configfile", "twice.yaml"])
     assert done.returncode != 0
-    assert "not valid JSON or YAML" in done.stdout + done.stderr
-    assert "Traceback" not in done.stdout + done.stderr
+    assert "smallsat: " in done.stderr and "twice.yaml: line 2" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_a_file_that_is_none(project):
+    """No such file, or a folder: one line."""
+    assert "no such file" in project.refusal("--configfile", "none.yaml")
+    assert "a folder" in project.refusal("--configfile", "config")
+
+
+def test_a_setting_that_is_none(project):
+    """A word after --config without a key, or with one that is no name."""
+    assert "give key=value" in project.refusal("--config", "transfer")
+    assert "give key=value" in project.refusal("--config", "1a=2")
 
 
 @pytest.mark.parametrize(

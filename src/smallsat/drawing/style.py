@@ -22,6 +22,8 @@ WIDTH = 6.3
 
 def apply_style() -> None:
     """Set matplotlib's defaults for all figures of the report."""
+    # First matplotlib's own defaults, so that no matplotlibrc of the user's has a say.
+    mpl.rcdefaults()
     mpl.use("agg")
     mpl.rcParams.update(
         {

@@ -1,37 +1,108 @@
-"""Compilation of inner loops: ``@compiled`` is Numba's ``njit`` with a cache that cannot go stale.
+"""Compilation of inner loops: ``@compiled`` is Numba's ``njit`` with a cache that only ever helps.
 
 Numba keeps a compiled function as long as its own file is unchanged, even when a function that it
-calls, in another file, has changed. The cache therefore lives in a folder that is named after the
-content of every file with compiled functions.
+calls or a constant that it uses, in another file, has changed. The cache therefore lives in a
+folder that is named after the content of every file with compiled functions and of all that they
+import. What is damaged, half written or not writable is passed over: the function is compiled anew.
 """
 
+import contextlib
 import hashlib
+import os
+import re
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
 
 import numba
+from numba.core.caching import FunctionCache
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 _PACKAGE = Path(__file__).parents[1]
+_IMPORT = re.compile(
+    rb"^(?:from|import) smallsat\.?([\w.]*)(?: import (\([^)]*\)|.*))?", re.MULTILINE
+)
 
 
-def _digest() -> str:
+def cache_folder(package: Path = _PACKAGE) -> Path:
+    """Folder of the compiled functions of a package's source as it stands, made if need be.
+
+    It lies inside the package, or, where that is not writable, in a folder of the user's own.
+    """
+    name = f"numba-{_digest(package)}"
+    folder = package / "__pycache__" / name
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        if os.access(folder, os.W_OK):
+            return folder
+    except OSError:
+        pass
+    # What is loaded from the cache is run, so nobody else may have written it.
+    own = Path(tempfile.gettempdir()) / f"smallsat-{os.getuid()}"
+    own.mkdir(mode=0o700, exist_ok=True)
+    if own.stat().st_uid != os.getuid() or own.stat().st_mode & 0o022:
+        own = Path(tempfile.mkdtemp(prefix="smallsat-"))
+    (own / name).mkdir(exist_ok=True)
+    return own / name
+
+
+def _digest(package: Path) -> str:
+    contents = {path: path.read_bytes() for path in sorted(package.rglob("*.py"))}
+    closure: set[Path] = set()
+    found = {path for path, content in contents.items() if b"@compiled" in content}
+    while found:
+        closure |= found
+        found = {
+            imported for path in found for imported in _imports(package, contents[path])
+        } & contents.keys() - closure
     digest = hashlib.sha256(numba.__version__.encode())
-    for path in sorted(_PACKAGE.rglob("*.py")):
-        content = path.read_bytes()
-        if b"@compiled" in content:
-            digest.update(content)
+    for path in sorted(closure):
+        digest.update(contents[path])
     return digest.hexdigest()[:12]
 
 
-numba.config.CACHE_DIR = str(_PACKAGE / "__pycache__" / f"numba-{_digest()}")  # type: ignore[attr-defined]
+def _imports(package: Path, content: bytes) -> set[Path]:
+    """Files of the package that a module may import: as a module, or as a name in a package."""
+    found = set()
+    for module, names in _IMPORT.findall(content):
+        place = package.joinpath(*module.decode().split("."))
+        found |= {place.with_suffix(".py"), place / "__init__.py"}
+        found |= {place / f"{name}.py" for name in re.findall(r"\w+", names.decode())}
+    return found
+
+
+class _PassableCache(FunctionCache):
+    """Numba's cache, except that no state of its files stops a run."""
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """The compiled function, or None to have it compiled."""
+        try:
+            return super().load_overload(sig, target_context)
+        except Exception:
+            # Whatever a damaged file makes of itself when it is read.
+            return None
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        """Keep the compiled function if that is possible."""
+        try:
+            super().save_overload(sig, data)
+        except OSError:
+            # A full disk, or a folder that is not writable.
+            pass
+        except Exception:
+            # The index is read before it is written; a damaged one is begun anew, by the next run.
+            with contextlib.suppress(OSError):
+                self.flush()
+
+
+numba.config.CACHE_DIR = str(cache_folder())  # type: ignore[attr-defined]
 
 
 def compiled(function: Function) -> Function:
     """Compile a function on its first call with arguments of each type."""
-    return numba.njit(cache=True)(function)  # type: ignore[return-value]
+    return _cached(numba.njit(function))
 
 
 def compiled_arithmetic(function: Function) -> Function:
@@ -41,4 +112,9 @@ def compiled_arithmetic(function: Function) -> Function:
     instructions. Multiplications are not fused into additions: which ones would be depends on what
     is inlined, and that differs between a process that compiles and one that loads the cache.
     """
-    return numba.njit(cache=True, error_model="numpy")(function)  # type: ignore[return-value]
+    return _cached(numba.njit(error_model="numpy")(function))
+
+
+def _cached(dispatcher: Any) -> Any:
+    dispatcher._cache = _PassableCache(dispatcher.py_func)
+    return dispatcher

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pandas as pd
 
-from smallsat.config import read_yaml
 from smallsat.errors import InputError, report_input_errors
 from smallsat.evidence.claims import judge_claims
 from smallsat.evidence.errata import prove_errata
@@ -15,6 +14,7 @@ from smallsat.evidence.not_converged import read_not_converged
 from smallsat.evidence.summary import failures, summary_text
 from smallsat.evidence.verdicts import TEXT_COLUMNS, judge, pending
 from smallsat.results import read_table, write_table
+from smallsat.strict_yaml import read_yaml
 
 
 def main() -> None:

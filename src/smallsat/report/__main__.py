@@ -4,7 +4,7 @@ import argparse
 import json
 from pathlib import Path
 
-from smallsat.config import read_yaml
+from smallsat.config import default_config
 from smallsat.errors import report_input_errors
 from smallsat.report.content import collect
 from smallsat.report.typesetting import compile_report
@@ -31,7 +31,7 @@ def main() -> None:
 
     arguments = parser.parse_args()
     if arguments.command == "content":
-        default = read_yaml(arguments.project / "config/default.yaml")
+        default = default_config(arguments.project)
         collected = collect(
             arguments.project,
             arguments.run,

@@ -9,7 +9,7 @@ from typing import Any
 
 import pandas as pd
 
-from smallsat.config import Config, read_yaml
+from smallsat.config import Config
 from smallsat.errors import InputError
 from smallsat.evidence.ledger import VALUE_KINDS, read_artefacts, read_ledger
 from smallsat.evidence.not_converged import read_not_converged
@@ -26,6 +26,7 @@ from smallsat.report.values import (
     value_texts,
 )
 from smallsat.results import read_table
+from smallsat.strict_yaml import read_yaml
 
 # Digits of numbers in tables that go beyond a document.
 EXTRAS_DIGITS = 7

@@ -1,0 +1,59 @@
+"""The user's own settings, kept out: what is built depends on the project alone.
+
+A matplotlibrc, an IPython start-up file, a kernel of another Python, a PYTHONPATH: each would
+change results or stop the build, and none of them is in the project. What these tools must write
+goes to a folder of the project, so that no home folder is needed either.
+"""
+
+import os
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+
+# Variables that point Python, Jupyter, IPython or matplotlib at files of the user.
+_FOREIGN = ("PYTHON", "JUPYTER", "IPYTHON", "MPL", "MATPLOTLIB", "NUMBA", "PAPERMILL")
+
+
+def isolated(environment: Mapping[str, str], cache: Path) -> dict[str, str]:
+    """The environment without what would let the user's settings in.
+
+    Parameters
+    ----------
+    environment
+        Variables as found.
+    cache
+        Folder in which Jupyter, IPython, matplotlib and Snakemake may keep what they need.
+
+    Returns
+    -------
+    dict
+        Variables for every process of a build. The programs of this Python's environment come
+        first on the path, so that `python` is the interpreter that runs now.
+    """
+    kept = {name: value for name, value in environment.items() if not name.startswith(_FOREIGN)}
+    cache = cache.absolute()
+    programs = str(Path(sys.executable).parent)
+    path = [part for part in kept.get("PATH", os.defpath).split(os.pathsep) if part != programs]
+    return kept | {
+        "PATH": os.pathsep.join([programs, *path]),
+        "PYTHONNOUSERSITE": "1",
+        # A file in the folder of the run must not pass for a module of the same name.
+        "PYTHONSAFEPATH": "1",
+        "JUPYTER_PREFER_ENV_PATH": "1",
+        "JUPYTER_CONFIG_DIR": str(cache / "jupyter/config"),
+        "JUPYTER_DATA_DIR": str(cache / "jupyter/data"),
+        "JUPYTER_RUNTIME_DIR": str(cache / "jupyter/runtime"),
+        "IPYTHONDIR": str(cache / "ipython"),
+        "MPLCONFIGDIR": str(cache / "matplotlib"),
+        "XDG_CACHE_HOME": str(cache),
+        # One process a core, each on one thread: results do not depend on the number of cores.
+        "OMP_NUM_THREADS": "1",
+        "OPENBLAS_NUM_THREADS": "1",
+    }
+
+
+def isolate(cache: Path) -> None:
+    """Apply `isolated` to this process and to those that it starts."""
+    environment = isolated(os.environ, cache)
+    os.environ.clear()
+    os.environ.update(environment)
