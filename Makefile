@@ -36,7 +36,7 @@ test: $(VENV)/installed
 
 # Modest changes of every study, one line each: done, refused with the reason, or not converged.
 what-ifs: $(VENV)/installed
-	@python tests/what_ifs/run.py
+	@python tests/what_ifs/run.py $(ONLY)
 
 lint: $(VENV)/installed
 	ruff check .

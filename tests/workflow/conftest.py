@@ -23,7 +23,7 @@ class Project:
 
     def command(self, *arguments: str) -> list[str]:
         """A Snakemake call as a list of words."""
-        return [str(self.folder / ".venv/bin/snakemake"), *arguments, "--cores", "2"]
+        return [str(self.folder / ".venv/bin/snakemake"), "--cores=2", *arguments]
 
     def run(
         self, command: str | list[str], timeout: int = 300, **environment: str

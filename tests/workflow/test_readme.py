@@ -1,0 +1,65 @@
+"""Every command of the README runs as it stands there, in its order, in a fresh copy."""
+
+import re
+
+import pytest
+
+FIGURE = "figures/mars/fig-10.svg"
+
+# Run in full, because they are quick or make what later ones need; the others are planned only.
+IN_FULL = (
+    ". .venv/bin/activate",
+    "echo 'mars: {visibility_deg: 40}' > my.yaml",
+    f"snakemake {FIGURE} --configfile my.yaml",
+    "snakemake -n",
+)
+
+
+@pytest.fixture(scope="module")
+def commands(root):
+    """Lines of the README's shell blocks, without their remarks."""
+    blocks = re.findall(r"^```sh\n(.*?)^```", (root / "README.md").read_text(), re.M | re.S)
+    lines = [line.split(" # ")[0].strip() for block in blocks for line in block.splitlines()]
+    return [line for line in lines if line]
+
+
+def planned(command: str) -> str:
+    """The command itself, or its dry run."""
+    if command in IN_FULL:
+        return command
+    assert command.split()[0] in ("make", "snakemake"), f"no dry run of: {command}"
+    return f"{command} -n"
+
+
+def test_every_command_of_the_readme(commands, make_project):
+    """No failure and no traceback; a what-if fills a folder of its own and no other."""
+    project = make_project()
+    assert set(IN_FULL) <= set(commands)
+    for command in commands:
+        done = project.run(f". .venv/bin/activate && {planned(command)}", timeout=600)
+        output = done.stdout + done.stderr
+        assert done.returncode == 0, f"{command}\n{output}"
+        assert "Traceback" not in output, f"{command}\n{output}"
+        assert not re.search("unknown|No rule", output), f"{command}\n{output}"
+    # The dry run of the other what-if leaves an empty folder.
+    assert len(list((project.folder / "runs").glob(f"*/{FIGURE}"))) == 1
+    assert not (project.folder / "figures").exists()
+
+
+def test_targets_are_understood_on_either_side(project):
+    """The README puts targets first; after --config and --configfile they mean the same."""
+    (project.folder / "my.yaml").write_text("mars: {visibility_deg: 40}\n")
+    setting = 'mars={"visibility_deg": 40}'
+    # What is planned, without the remark that a folder was made for it.
+    planned = [
+        project.jobs(*words).partition("Building DAG")[2]
+        for words in (
+            (FIGURE, "--configfile", "my.yaml"),
+            ("--configfile", "my.yaml", FIGURE),
+            (FIGURE, "--config", setting),
+            ("--config", setting, FIGURE),
+            ("--config", setting, "--", FIGURE),
+        )
+    ]
+    assert "mars_mission" in planned[0]
+    assert len(set(planned)) == 1
