@@ -50,9 +50,8 @@ def test_targets_are_understood_on_either_side(project):
     """The README puts targets first; after --config and --configfile they mean the same."""
     (project.folder / "my.yaml").write_text("mars: {visibility_deg: 40}\n")
     setting = 'mars={"visibility_deg": 40}'
-    # What is planned, without the remark that a folder was made for it.
     planned = [
-        project.jobs(*words).partition("Building DAG")[2]
+        frozenset(re.findall(r"^\w+ +\d+$", project.jobs(*words), re.MULTILINE))
         for words in (
             (FIGURE, "--configfile", "my.yaml"),
             ("--configfile", "my.yaml", FIGURE),
@@ -61,5 +60,5 @@ def test_targets_are_understood_on_either_side(project):
             ("--config", setting, "--", FIGURE),
         )
     ]
-    assert "mars_mission" in planned[0]
-    assert len(set(planned)) == 1
+    assert set(planned) == {planned[0]}
+    assert any(line.startswith("mars_mission ") for line in planned[0])

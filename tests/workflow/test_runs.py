@@ -44,6 +44,19 @@ def test_nothing_to_do_twice(built):
 
 
 @pytest.mark.parametrize(
+    "setting",
+    [
+        'transfer={"problem": {"initial_mass": 1}}',
+        'transfer={"problem": {"initial_radius": 1, "mu": 1e0}, "degrees": [2, 3.0, 4, 5, 6]}',
+        "run=named",
+    ],
+)
+def test_a_configuration_equal_to_the_default_reruns_nothing(built, setting):
+    """1 for 1.0, a default written out, a name for the reproduction."""
+    assert "Nothing to be done" in built.jobs("figures/transfer/fig-05.svg", "--config", setting)
+
+
+@pytest.mark.parametrize(
     ("module", "reruns", "keeps"),
     [
         ("transfer/indirect.py", "transfer_indirect", "mars_simulation"),
