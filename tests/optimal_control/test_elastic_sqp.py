@@ -20,9 +20,12 @@ def _circle(copies):
 
 @pytest.mark.parametrize("copies", [1, 2, 5])
 def test_redundant_equalities_do_no_harm(copies):
-    """The optimum (-1, -1) to 1e-6, however often the equality is said."""
+    """The optimum (-1, -1) to 1e-6, although all rows of the equalities are one row."""
     solver = ElasticSqp(2, copies, 0)
-    found = solver.solve(_circle(copies), np.array([-2.0, 0.5]), -FREE, FREE, 1e-8, 200)
+    guess = np.array([-2.0, 0.5])
+    _, jacobian = _circle(copies)(guess)
+    assert np.linalg.matrix_rank(jacobian[1:]) == 1
+    found = solver.solve(_circle(copies), guess, -FREE, FREE, 1e-8, 200)
     assert found.converged
     assert found.variables == pytest.approx([-1.0, -1.0], abs=1e-6)
 

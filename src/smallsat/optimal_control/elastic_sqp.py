@@ -2,8 +2,8 @@
 
 The method of an exact penalty in a trust region (Fletcher's Sl1QP): each step minimises a quadratic
 model of the Lagrangian plus a multiple of the violation of the linearised constraints. Dependent or
-contradictory equalities, which a plain SQP method refuses, only cost what they cannot meet, and the
-merit never rises.
+contradictory equalities, for which the steps of a plain SQP method are not defined, only cost what
+they cannot meet, and the merit never rises.
 """
 
 from collections.abc import Callable

@@ -7,7 +7,8 @@ in the constraints, ``min(S)`` over all entries of the matrix S (so that a ring 
 number of function evaluations, forward differences, and going on from wherever a solve ended.
 
 What differs from fmincon: the SQP method is our own elastic one, which like fmincon's bears
-dependent equalities (a plain SQP method such as SLSQP refuses them at once). Where it ends
+dependent equalities (the steps of a plain SQP method, such as SLSQP, need independent ones: whether
+it stops at them is up to the rounding). Where it ends
 infeasible, the weight of the constraints is raised tenfold and it goes on. A primer vector of
 exactly zero gives no thrust instead of no number, and so does the guess where a CubeSat starts at
 the last ring's centre.

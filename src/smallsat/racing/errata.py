@@ -266,9 +266,6 @@ def equality_ranks(config: Config, results: Path, transposed: bool) -> tuple[int
 
     The segment is Meeny's first by the indirect method, where all conditions hold.
     """
-    given = parameters(config["racing"])
-    race = given.races["scenario-1"]
-    cubesat = next(c for c in race.cubesats if c.name == "Meeny")
     segments = read_table(results / "optima-scenario-1-segments.csv")
     row = segments[
         (segments["solution"] == INDIRECT)
@@ -276,6 +273,13 @@ def equality_ranks(config: Config, results: Path, transposed: bool) -> tuple[int
         & (segments["segment"] == 0)
     ].iloc[0]
     z = np.r_[row[["px", "py", "pz", "pvx", "pvy", "pvz"]].to_numpy(dtype=float), row["duration_s"]]
+    return ranks_at(parameters(config["racing"]), z, transposed)
+
+
+def ranks_at(given: Parameters, z: np.ndarray, transposed: bool) -> tuple[int, int, int]:
+    """Ranks of the equalities' Jacobian on Meeny's first segment, at any of its unknowns (7,)."""
+    race = given.races["scenario-1"]
+    cubesat = next(c for c in race.cubesats if c.name == "Meeny")
     law, limits = as_published.law_of(cubesat)
     settings = given.as_published
     jacobian = np.empty((as_published.EQUALITIES, len(z)))
