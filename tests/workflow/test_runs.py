@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import time
+from base64 import urlsafe_b64encode
 
 import pytest
 
@@ -105,12 +106,29 @@ def test_a_truncated_results_file_is_named(built):
     assert (built.folder / "data/results/transfer/indirect.csv").exists()
 
 
-def _shards(folder):
-    return sorted((folder / "data/results/transfer").glob("as-published-k*.csv"))
+def _noted(run):
+    """Files of the shards that are whole and that Snakemake has taken note of.
+
+    It marks the outputs of a job when the job starts and takes the marks away once the job is
+    recorded; what is still marked is made again.
+    """
+    found = []
+    for k in (1, 2, 4):
+        names = [
+            f"data/results/transfer/as-published-k{k}{end}"
+            for end in (".csv", ".parquet", "-seconds.csv")
+        ]
+        marks = [
+            run / ".snakemake/incomplete" / urlsafe_b64encode(n.encode()).decode() for n in names
+        ]
+        files = [run / name for name in names]
+        if all(file.exists() for file in files) and not any(mark.exists() for mark in marks):
+            found += files
+    return found
 
 
 def test_a_killed_run_resumes(make_project):
-    """SIGKILL to Snakemake and its jobs: finished shards stay, the rest comes out the same."""
+    """SIGKILL to Snakemake and its jobs: noted shards stay, the rest comes out the same."""
     project = make_project()
     target = "data/results/transfer/as-published.csv"
     undisturbed = project.folder / "runs/undisturbed"
@@ -127,15 +145,16 @@ def test_a_killed_run_resumes(make_project):
         start_new_session=True,
     )
     deadline = time.monotonic() + 120
-    while not _shards(killed) and time.monotonic() < deadline:
+    while not _noted(killed) and time.monotonic() < deadline:
         time.sleep(0.02)
     os.killpg(process.pid, signal.SIGKILL)
     process.wait()
-    finished = {path: path.stat().st_mtime_ns for path in _shards(killed)}
-    assert finished and not (killed / target).exists()
+    kept = {path: path.stat().st_mtime_ns for path in _noted(killed)}
+    assert kept and not (killed / target).exists()
 
     resumed = project.snakemake(target, "--config", "run=killed", SMALL)
     assert resumed.returncode == 0, resumed.stdout + resumed.stderr
+    assert {path: path.stat().st_mtime_ns for path in kept} == kept
     assert (killed / target).read_bytes() == (undisturbed / target).read_bytes()
 
 

@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import time
+from base64 import urlsafe_b64encode
 from pathlib import Path
 
 import pytest
@@ -83,19 +84,33 @@ def test_progress_is_in_each_shards_log(project):
     assert "case 4 of 4, N 30, Ts 60 s: 2 of 2 manoeuvres" in log.read_text()
 
 
+def noted(run):
+    """Shards that are whole and that Snakemake has taken note of.
+
+    It marks a job's output when the job starts and takes the mark away once the job is recorded;
+    what is still marked is made again.
+    """
+    marks = run / ".snakemake/incomplete"
+    return [
+        path
+        for path in (run / SHARDS).glob("*.parquet")
+        if not (marks / urlsafe_b64encode(f"{SHARDS}/{path.name}".encode()).decode()).exists()
+    ]
+
+
 def test_a_killed_snakemake_goes_on(project):
-    """SIGKILL to Snakemake and all of its jobs: finished shards are not flown again."""
-    folder = project.folder / "runs/killed" / SHARDS
+    """SIGKILL to Snakemake and all of its jobs: noted shards are not flown again."""
+    run = project.folder / "runs/killed"
     process = start(project, "killed")
-    until(lambda: list(folder.glob("*.parquet")))
+    until(lambda: noted(run))
     os.killpg(process.pid, signal.SIGKILL)
     process.wait()
-    finished = {path: path.stat().st_mtime_ns for path in folder.glob("rendezvous*.parquet")}
-    # Those that Snakemake had not yet taken note of are made again.
+    kept = {path: path.stat().st_mtime_ns for path in noted(run)}
+    assert kept and not (run / TARGET).exists()
     resumed = project.snakemake(TARGET, *settings("killed", 3))
     assert resumed.returncode == 0, resumed.stdout + resumed.stderr
+    assert {path: path.stat().st_mtime_ns for path in kept} == kept
     assert content(project, "killed") == content(project, "undisturbed")
-    assert finished
 
 
 def test_a_killed_worker_is_flown_again(project):
