@@ -66,6 +66,21 @@ def test_proof_fails_where_the_document_would_be_right(section, results, name, k
     assert not getattr(errata, name)({"mars": changed}, results).holds
 
 
+@pytest.mark.parametrize(
+    ("name", "place", "right"),
+    [
+        ("visibility_overlap", "table-1-footnote/not-visible-lmo-gmo-angular-separation", "> 35"),
+        # A table that followed from the printed formula.
+        ("tracking_rate_formula", "table-3/omega-b-r-t0/sun-pointing/2", "0.0000"),
+    ],
+)
+def test_proof_fails_with_another_literal(section, results, monkeypatch, name, place, right):
+    """What the document prints is read from the ledger; printed otherwise, it would be right."""
+    printed = errata.literal
+    monkeypatch.setattr(errata, "literal", lambda key: right if key == place else printed(key))
+    assert not getattr(errata, name)({"mars": section}, results).holds
+
+
 def test_claims_of_the_fixed_torque_run(section, results):
     """omega_2 spins up instead of oscillating; the one-second step is too long, as suspected."""
     config = {"mars": section}

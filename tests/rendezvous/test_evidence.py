@@ -107,6 +107,28 @@ def test_the_end_of_the_mid_range_needs_a_sample_that_is_far(section, tmp_path):
     assert not errata.approach_end_vector({"rendezvous": start}, tmp_path).holds
 
 
+def test_the_mid_range_must_come_by_the_octant(section, tmp_path):
+    """Flown beside the axis by more than r2, the mirrored flight meets the condition nowhere."""
+    beside = made_up(section)
+    beside["z_m"] = -3.0 * law(section, "v-bar").overshoot
+    beside.to_parquet(tmp_path / "flights.parquet")
+    assert not errata.approach_end_vector({"rendezvous": section}, tmp_path).holds
+
+
+def test_the_cone_must_be_entered(section, tmp_path):
+    """With a mid range that begins outside the cone the corrected condition ends nothing."""
+    outside = made_up(section)
+    outside["x_m"] = outside["y_m"]
+    outside.to_parquet(tmp_path / "flights.parquet")
+    assert not errata.rendezvous_end_cone({"rendezvous": section}, tmp_path).holds
+
+
+def test_a_quadratic_form_printed_would_be_no_erratum(section, monkeypatch):
+    """With u' R u printed the proof does not hold."""
+    monkeypatch.setattr(errata, "printed_stage_cost", lambda u, weight: float(u @ (weight * u)))
+    assert not errata.quadratic_stage_cost({"rendezvous": section}, Path("nowhere")).holds
+
+
 def ensemble(folder, **totals):
     """Made-up acceptable sets: a list of (time, delta-v) a case, one entry a set."""
     rows = []

@@ -9,7 +9,8 @@ from smallsat.evidence.ledger import read_ledger
 from smallsat.evidence.printed import parse_printed
 from smallsat.rendezvous.guidance import PHASES
 
-LEDGER = Path(__file__).parents[3] / "data/published/values.csv"
+PUBLISHED = Path(__file__).parents[3] / "data/published"
+LEDGER, ARTEFACTS = PUBLISHED / "values.csv", PUBLISHED / "artefacts.csv"
 # Case of ours: where the document prints it, and what its rows are called there.
 CASE_TABLES = {
     "v-bar": ("table-3-3", "case-1-v-bar"),
@@ -37,6 +38,21 @@ def _values() -> dict[str, tuple[float, float]]:
 def value(identifier: str) -> float:
     """One printed number by its id, without the document's name."""
     return _values()[f"rendezvous/{identifier}"][0]
+
+
+def value_list(place: str) -> list[float]:
+    """The printed numbers of a list, ``place/item-1`` and so on, in the document's order.
+
+    Raises
+    ------
+    KeyError
+        If the document prints no such list.
+    """
+    found = [value for key, (value, _) in _values().items()
+             if key.startswith(f"rendezvous/{place}/item-")]  # fmt: skip
+    if not found:
+        raise KeyError(place)
+    return found
 
 
 def cell_id(quantity: str, case: str, phase: str) -> str:

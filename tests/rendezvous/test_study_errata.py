@@ -1,0 +1,94 @@
+"""Proofs of the slips in chapters 4 and 5: they hold as printed, and can fail."""
+
+from pathlib import Path
+
+import pytest
+import synthetic
+
+from smallsat.rendezvous import study_errata
+from smallsat.rendezvous.study_cases import LP, NO_SET_POINT, sweep_case
+from smallsat.results import write_table
+
+NOWHERE = Path("nowhere")
+COUNT = 40
+GRIDS = {
+    "approach": ([5, 15, 30], [5.0, 10.0, 15.0, 20.0, 25.0, 30.0]),
+    "docking": ([5, 12, 30], [1.0, 3.0, 5.0, 10.0]),
+}
+
+
+def fly(folder, delta_v=None, infeasible_at=5, steps=None):
+    """Made-up sweeps: delta-v by phase, and the horizon at which 5 s is infeasible."""
+    delta_v = {"approach": 4.0, "docking": 0.3} | (delta_v or {})
+    time = {"approach": 600.0, "docking": 280.0}
+    for phase, grid in GRIDS.items():
+        table = synthetic.sweep(
+            phase, *grid, COUNT, lambda n, t, p=phase: delta_v[p], lambda n, t, p=phase: time[p]
+        )
+        table[f"{phase}_steps"] = (steps or {"approach": 60, "docking": 280})[phase]
+        if phase == "approach":
+            met = table["case"] == sweep_case(infeasible_at, 5.0)
+            table.loc[met, "approach_softened"] = 1
+        write_table(table, folder / f"studies/{phase}-sweep.parquet")
+
+
+def domain(folder, factor):
+    """Both variants of the appendix, one with so many times the delta-v and time of the other."""
+    parts = [
+        synthetic.manoeuvres(
+            name, COUNT, rendezvous_time_s=900.0 * by, rendezvous_delta_v_m_s=9.0 * by
+        )
+        for name, by in ((NO_SET_POINT, factor), (LP, 1.0))
+    ]
+    write_table(synthetic.pd.concat(parts, ignore_index=True), folder / "studies/domain.parquet")
+
+
+def printed(monkeypatch, name, changes):
+    """The ledger with other numbers at some places."""
+    right = getattr(study_errata, name)
+    monkeypatch.setattr(
+        study_errata, name, lambda place: changes[place] if place in changes else right(place)
+    )
+
+
+def test_sample_time_subscript(config, monkeypatch):
+    """Printed in one list only; in both, the subscript would be no slip."""
+    assert study_errata.sample_time_subscript(config, NOWHERE).holds
+    printed(monkeypatch, "value_list", {"section-4-3/approach-sample-times-tested": [5, 30, 60]})
+    assert not study_errata.sample_time_subscript(config, NOWHERE).holds
+
+
+@pytest.mark.parametrize("listed", [[5, 12, 30], [5, 12]])
+def test_docking_horizons(config, monkeypatch, listed):
+    """Missing in one list and printed in another; listed in both, or nowhere, it is no slip."""
+    assert study_errata.docking_horizons(config, NOWHERE).holds
+    both = ("docking-prediction-horizons-n3-tested", "docking-horizons-n3-benchmarked")
+    places = [f"section-{s}/{name}" for s, name in zip(("4-4", "6-2"), both, strict=True)]
+    printed(monkeypatch, "value_list", dict.fromkeys(places, listed))
+    assert not study_errata.docking_horizons(config, NOWHERE).holds
+
+
+def test_approach_figures_swapped(config, tmp_path):
+    """Infeasible at the shortest horizon; at the next one, the text would be right."""
+    fly(tmp_path)
+    assert study_errata.approach_figures_swapped(config, tmp_path).holds
+    fly(tmp_path, infeasible_at=15)
+    assert not study_errata.approach_figures_swapped(config, tmp_path).holds
+
+
+def test_docking_axis_label(config, tmp_path):
+    """With few intervals of docking, or an approach on little delta-v, the label may be right."""
+    fly(tmp_path)
+    assert study_errata.docking_axis_label(config, tmp_path).holds
+    fly(tmp_path, steps={"approach": 280, "docking": 60})
+    assert not study_errata.docking_axis_label(config, tmp_path).holds
+    fly(tmp_path, delta_v={"approach": 0.1})
+    assert not study_errata.docking_axis_label(config, tmp_path).holds
+
+
+def test_appendix_caption(config, tmp_path):
+    """Two variants that look alike could share a figure."""
+    domain(tmp_path, 3.0)
+    assert study_errata.appendix_caption(config, tmp_path).holds
+    domain(tmp_path, 1.0)
+    assert not study_errata.appendix_caption(config, tmp_path).holds
