@@ -1,7 +1,12 @@
 """Results of the orbit-transfer study that no single printed value shows."""
 
+from decimal import Decimal
+from itertools import product
+
 import pandas as pd
 import pytest
+
+from smallsat.transfer.printed import printed_cases
 
 # Best known final times of direct multiple shooting with free polynomials, to six decimals: the
 # figures an independent computation found for the same problem. Ours must match or beat them.
@@ -52,18 +57,31 @@ def test_nothing_beats_the_extremal(results):
 
 
 def test_single_polynomials_beat_the_printed_local_minima(results):
-    """From degree 3 on, the best of many starts is shorter than the run from the printed guess."""
+    """From degree 3 on, the best of many starts is shorter than what Table 3 prints."""
     best = results["multistart"].set_index("degree")["final_time"]
-    cases = results["as-published"]
-    published = cases[(cases["intervals"] == 1) & cases["residual"].notna()]
-    for row in published.itertuples():
-        if row.degree >= 3:
-            assert best[row.degree] < row.final_time - 1e-3
+    printed = printed_cases("Table 3")["terminal time"]
+    for degree in (3, 4, 5, 6):
+        assert best[degree] < printed["direct", degree, 1] - 1e-3
 
 
-def test_early_stopping_lands_on_printed_values(tested_run):
-    """The experiment behind the inference: most cases enter the printed band when stopped early."""
-    table = pd.read_csv(tested_run / "data/results/transfer/early-stopping.csv")
-    cases = table.groupby(["degree", "intervals"])[["in_printed_band", "equal_to_printed"]].any()
-    assert cases["in_printed_band"].sum() >= 15
-    assert cases["equal_to_printed"].sum() >= 5
+def test_early_stopping_is_counted_right(tested_run, config):
+    """The experiment behind the inference: every case and tolerance, and both columns of hits.
+
+    How many iterates hit a printed value hangs on the last bits of a solver, so that no number is
+    asked for here; what the claim makes of them is pinned in ``data/accepted``.
+    """
+    path = tested_run / "data/results/transfer/early-stopping.csv"
+    table = pd.read_csv(path, dtype={"final_time": str})
+    study = config["transfer"]
+    numerics = study["numerics"]
+    tolerances = [numerics["as_published_tolerance"], *numerics["early_stopping_tolerances"]]
+    cases = product(study["degrees"], study["intervals"], tolerances)
+    found = table[["degree", "intervals", "tolerance"]].itertuples(index=False, name=None)
+    assert sorted(found) == sorted(cases)
+    printed = printed_cases("Table 4")["terminal time"]
+    band = printed.min() - 5e-6, printed.max() + 5e-6
+    for row in table.itertuples():
+        time = Decimal(row.final_time)
+        text = f"{printed['direct', row.degree, row.intervals]:.5f}"
+        assert row.equal_to_printed == (abs(time - Decimal(text)) <= Decimal("5e-6")), row
+        assert row.in_printed_band == (band[0] <= float(time) <= band[1]), row

@@ -11,7 +11,6 @@ import pandas as pd
 import pytest
 
 from smallsat.evidence.ledger import DOCUMENTS, read_artefacts, read_ledger
-from smallsat.evidence.printed import parse_printed
 from smallsat.evidence.verdicts import PENDING, VERDICTS
 from smallsat.strict_yaml import read_yaml
 
@@ -81,14 +80,6 @@ def test_every_verdict_has_a_reason(verdicts):
     assert verdicts["reason"].notna().all()
 
 
-def test_reproduced_results_equal_the_printed_digits(ledger, verdicts):
-    """Recomputed here from the two columns alone: half a unit of the last printed digit."""
-    for identifier, row in verdicts[verdicts["verdict"] == "reproduced"].iterrows():
-        if ledger[identifier]["kind"] == "result":
-            printed = parse_printed(ledger[identifier]["printed"])
-            assert printed is not None and printed.matches(row["computed"]), identifier
-
-
 @pytest.mark.parametrize("table", ["Table 1", "Table 2", "Table 3"])
 def test_transfer_tables_one_to_three_are_reproduced(verdicts, table):
     """Every final time and mass of the first three tables comes out to the printed digits."""
@@ -156,7 +147,7 @@ def test_every_proof_holds(root, tested_run, document):
 
 @pytest.mark.parametrize("document", BUILT)
 def test_every_claim_is_judged(tested_run, document):
-    """Each claim has one of the three outcomes, and evidence."""
+    """Each claim has one of the three outcomes, and evidence; which one, is pinned elsewhere."""
     claims = pd.read_csv(tested_run / f"data/results/{document}/claims.csv")
     assert claims["outcome"].isin(["holds", "fails", "undecided"]).all()
     assert claims["evidence"].notna().all()
