@@ -4,10 +4,12 @@ from copy import deepcopy
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from smallsat.racing import claims, errata
 from smallsat.racing.printed import PRINTED
+from smallsat.results import write_table
 
 RESULTS = Path("nowhere")
 
@@ -74,9 +76,7 @@ def test_ring_size_and_axial_thrust(config, monkeypatch):
 def test_redundancy_proof_can_fail(config, monkeypatch):
     """Were the twelve rows of rank five, nothing would be redundant beyond the fixed ones."""
     monkeypatch.setattr(errata, "equality_ranks", lambda *_, **__: (5, 5, 3))
-    monkeypatch.setattr(
-        errata, "read_table", lambda _: __import__("pandas").DataFrame({"converged": [True]})
-    )
+    monkeypatch.setattr(errata, "read_table", lambda _: pd.DataFrame({"converged": [True]}))
     assert not errata.redundant_equalities(config, RESULTS).holds
 
 
@@ -96,3 +96,23 @@ def test_five_printed_runs_missed(config):
     assert judgement.outcome == "holds"
     for name in ("Eeny 92.1", "Mo 693.7", "Eeny 609.0", "Miny 665.8", "Mo 143.3"):
         assert name in judgement.evidence
+
+
+@pytest.mark.parametrize(
+    ("costs", "unconverged", "outcome"),
+    [
+        ([4300.0, 2800.0], 23, "holds"),
+        ([4300.0, 4300.1], 23, "fails"),
+        ([4300.0, 2800.0], 0, "fails"),
+    ],
+)
+def test_a_solve_is_erratic_where_nothing_it_should_depend_on_changes(
+    config, tmp_path, costs, unconverged, outcome
+):
+    """Costs apart and nothing converged; costs alike; or all converged."""
+    table = pd.DataFrame(
+        {"variant": ["one", "two"], "cost": costs, "missed": 9, "not_converged": unconverged,
+         "segments": 23}
+    )  # fmt: skip
+    write_table(table, tmp_path / "variants.csv")
+    assert claims.published_solve_is_erratic(config, tmp_path).outcome == outcome

@@ -339,7 +339,8 @@ def published_solve_is_erratic(config: Config, results: Path) -> Judgement:
         for row in table.to_dict("records")
     )
     return judged(
-        bool(costs.max() > 2.0 * costs.min() and (table["not_converged"] > 0).all()),
+        # By how much is up to the last bits of every step, so that no ratio can be asked for.
+        bool(costs.max() > (1.0 + MASSIVE) * costs.min() and (table["not_converged"] > 0).all()),
         f"Meeny, Scenario 1: {text}",
     )
 
