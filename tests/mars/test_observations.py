@@ -3,6 +3,7 @@
 import copy
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from smallsat.errors import InputError
@@ -30,3 +31,17 @@ def test_an_answer_time_off_the_grid_is_named(section, given, runs, time):
     changed["answer_times_s"]["mission"][0] = time
     with pytest.raises(InputError, match=rf"answer_times_s\.mission': {time:g}"):
         observations(changed, given, runs)
+
+
+def test_a_run_that_overflowed_is_not_a_number_with_a_note(section, given, runs):
+    """Its values are missing and say why; those of the other runs stay."""
+    lost = dict(runs)
+    lost["fixed torque"] = np.full_like(runs["fixed torque"], np.nan)
+    lost["fixed torque"][:, 0] = runs["fixed torque"][:, 0]
+    found = observations(section, given, lost)
+    missing = [one for one in found if np.isnan(one.computed)]
+    assert {one.id.rpartition("/")[0] for one in missing} == {
+        "mars/section-ix-c/sigma-b-n-100-s/fixed-torque"
+    }
+    assert all(one.note.startswith("not converged") for one in missing)
+    assert not any(one.note for one in found if not np.isnan(one.computed))

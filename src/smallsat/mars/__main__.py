@@ -4,16 +4,17 @@ import argparse
 import json
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 
 from smallsat.errors import report_input_errors
-from smallsat.evidence.not_converged import not_converged_table
+from smallsat.evidence.not_converged import NotConverged, not_converged_table
 from smallsat.evidence.observation import observations_table
 from smallsat.mars.independent_check import check_runs
 from smallsat.mars.modes import shares, timeline
 from smallsat.mars.observations import observations
-from smallsat.mars.parameters import parameters
-from smallsat.mars.simulation import as_table, day_run, document_runs
+from smallsat.mars.parameters import check, parameters
+from smallsat.mars.simulation import as_table, day_run, document_runs, finite
 from smallsat.results import write_table
 
 
@@ -29,6 +30,7 @@ def main() -> None:
         command.add_argument("--config", required=True, type=json.loads, help="mars section, JSON")
         command.add_argument("--output-folder", required=True, type=Path)
     arguments = parser.parse_args()
+    check(arguments.config)
     {"simulate": _simulate, "check": _check}[arguments.command](
         arguments.config, arguments.output_folder
     )
@@ -37,10 +39,16 @@ def main() -> None:
 def _simulate(section: dict, folder: Path) -> None:
     given = parameters(section)
     runs = document_runs(section, given)
+    day_record = day_run(section, given)
+    unsolved = [
+        _overflow(name, record, section["step_s"])
+        for name, record in [*runs.items(), ("day", day_record)]
+        if not finite(record)
+    ]
     tables = [as_table(record).assign(run=name) for name, record in runs.items()]
     write_table(pd.concat(tables, ignore_index=True), folder / "trajectories.parquet")
 
-    day = as_table(day_run(section, given))
+    day = as_table(day_record)
     columns = ["time_s", "sigma_1", "sigma_2", "sigma_3", "mode"]
     write_table(day[columns], folder / "day.parquet")
     intervals = timeline(day["time_s"].to_numpy(), day["mode"].to_numpy())
@@ -50,7 +58,19 @@ def _simulate(section: dict, folder: Path) -> None:
     # All digits, for results that are printed as exact fractions.
     observed = observations_table(observations(section, given, runs))
     write_table(observed, folder / "observations.csv")
-    write_table(not_converged_table([]), folder / "not-converged.csv")
+    write_table(not_converged_table(unsolved), folder / "not-converged.csv")
+
+
+def _overflow(name: str, record: np.ndarray, step: float) -> NotConverged:
+    """The run as a case without a solution; what it recorded before is worth nothing."""
+    time = record[np.flatnonzero(~np.isfinite(record[:, 1:7]).all(axis=1))[0], 0]
+    record[:, 1:16] = np.nan
+    return NotConverged(
+        case=f"the run '{name}'",
+        status=f"no number from {time:g} s on: the motion is too fast for the step, or the "
+        "reference frame is undefined there",
+        tried=f"classical Runge-Kutta steps of {step:g} s, the torque held over a step",
+    )
 
 
 def _check(section: dict, folder: Path) -> None:

@@ -19,7 +19,14 @@ from smallsat.mars.gains import Gains, damping_ratios
 from smallsat.mars.observations import row_at
 from smallsat.mars.parameters import KM, parameters
 from smallsat.mars.printed import literal
-from smallsat.mars.simulation import AUTOMATIC, POINTING_RUNS, document_runs, run, tracking_error
+from smallsat.mars.simulation import (
+    AUTOMATIC,
+    POINTING_RUNS,
+    document_runs,
+    finite,
+    run,
+    tracking_error,
+)
 from smallsat.results import read_table
 
 # Printed literals that a proof confronts with what is computed.
@@ -42,7 +49,7 @@ def table_8_misprint(config: Config, results: Path) -> Proof:
     thresholds = sorted(set(section["mrp_switch"].values()))
     steps = [section["step_s"] / n for n in (1, 2, 4)]
     found = [
-        row_at(run(given, AUTOMATIC, time, step, difference, threshold), time, "mission")[1:4]
+        _row(run(given, AUTOMATIC, time, step, difference, threshold), time, "mission")[1:4]
         for step in steps
         for threshold in thresholds
     ]
@@ -54,7 +61,7 @@ def table_8_misprint(config: Config, results: Path) -> Proof:
     shadows = -sigma / np.sum(sigma**2, axis=1, keepdims=True)
     sigma_1 = np.r_[sigma[:, 0], shadows[:, 0]]
     closest = float(np.min(np.abs(sigma_1 - PRINTED_TABLE_8_SIGMA_1)))
-    ours = row_at(document_runs(section, given)["mission"], time, "mission")[1]
+    ours = _row(document_runs(section, given)["mission"], time, "mission")[1]
     return Proof(
         holds=closest > 2 * HALF_OF_3_DECIMALS,
         as_printed=f"sigma_1 = {PRINTED_TABLE_8_SIGMA_1}",
@@ -96,7 +103,7 @@ def kinetic_energy_half(config: Config, results: Path) -> Proof:
     section = config["mars"]
     given = parameters(section)
     time = section["answer_times_s"]["no_torque"]
-    rate = row_at(document_runs(section, given)["no torque"], time, "no_torque")[4:7]
+    rate = _row(document_runs(section, given)["no torque"], time, "no_torque")[4:7]
     correct = kinetic_energy(given.inertia, rate)
     printed = float(rate @ (given.inertia * rate))
     half_unit = 0.5e-5
@@ -116,7 +123,7 @@ def attitude_matrix_factor(config: Config, results: Path) -> Proof:
     section = config["mars"]
     given = parameters(section)
     time = section["answer_times_s"]["no_torque"]
-    row = row_at(document_runs(section, given)["no torque"], time, "no_torque")
+    row = _row(document_runs(section, given)["no torque"], time, "no_torque")
     sigma, rate = row[1:4], row[4:7]
     tilde = np.cross(np.eye(3), -sigma)
     printed = np.eye(3) + (8 * tilde @ tilde - 4 * tilde) / (1 + sigma @ sigma) ** 2
@@ -265,6 +272,8 @@ def second_rate_panel(config: Config, results: Path) -> Proof:
         for name, group in runs.groupby("run")
         if name in ("no torque", "fixed torque")
     }
+    if not np.isfinite(list(apart.values())).all():
+        raise LookupError("a run overflowed")
     return Proof(
         holds=min(apart.values()) > 1e-3,
         as_printed="second panel of omega: omega_1",
@@ -285,6 +294,8 @@ def reference_rate_frame(config: Config, results: Path) -> Proof:
         last[[f"{name}_{axis}" for axis in "123"]].to_numpy(dtype=float)
         for name in ("omega", "omega_ref")
     )
+    if not np.isfinite(body_rate).all():
+        raise LookupError("the run 'nadir' overflowed")
     inertial = np.array(nadir_frame_rate(given.lmo, float(last["time_s"])))
     apart, correct = (float(np.linalg.norm(body_rate - one)) for one in (inertial, reference_rate))
     return Proof(
@@ -327,6 +338,8 @@ def switch_thresholds(config: Config, results: Path) -> Proof:
     worst = 0.0
     for command, duration in commands:
         records = [run(given, command, duration, step, difference, one) for one in thresholds]
+        if not all(map(finite, records)):
+            raise LookupError("a run overflowed")
         attitudes = [Rotation.from_mrp(record[:, 1:4].copy()) for record in records]
         angles = [(attitudes[0].inv() * other).magnitude().max() for other in attitudes[1:]]
         worst = max([worst, *(float(angle) for angle in angles)])
@@ -368,6 +381,13 @@ def _meets(angles: np.ndarray, condition: str) -> np.ndarray:
     sign, limit = condition.split()
     compare = {"<=": np.less_equal, ">=": np.greater_equal, ">": np.greater, "<": np.less}[sign]
     return compare(angles, float(limit))
+
+
+def _row(record: np.ndarray, time: float, key: str) -> np.ndarray:
+    """The row of a run at a time; a LookupError where the run overflowed."""
+    if not finite(record):
+        raise LookupError("the run overflowed")
+    return row_at(record, time, key)
 
 
 def _orthogonality_defect(matrix: np.ndarray) -> float:

@@ -9,6 +9,8 @@ from smallsat.mars.modes import MODE_NAMES
 COLOURS = {"sun": "C4", "nadir": "C0", "gmo": "C2"}
 LABELS = {"sun": "Sun", "nadir": "nadir", "gmo": "GMO"}
 HOUR = 3600.0
+# The Mars day of Section XIII.B, s; a what-if run may show another time.
+MARS_DAY = 88620.0
 
 
 def mode_figure(intervals: pd.DataFrame, shares: pd.DataFrame) -> Figure:
@@ -22,7 +24,9 @@ def mode_figure(intervals: pd.DataFrame, shares: pd.DataFrame) -> Figure:
     line.invert_yaxis()
     line.set_xlim(0.0, intervals["end_s"].max() / HOUR)
     line.set_xlabel("time [h]")
-    line.set_title(f"{len(intervals) - 1} mode switches in a Mars day")
+    end = intervals["end_s"].max()
+    span, whole = ("a Mars day", "day") if end == MARS_DAY else (f"{end / HOUR:.3g} h", "time")
+    line.set_title(f"{len(intervals) - 1} mode switches in {span}")
     line.grid(axis="y", visible=False)
 
     left = 0.0
@@ -36,7 +40,7 @@ def mode_figure(intervals: pd.DataFrame, shares: pd.DataFrame) -> Figure:
             fontsize=8,
         )
         left += percent
-    share.set(xlim=(0, 100), ylim=(-0.5, 1.3), yticks=[], xlabel="share of the day [%]")
+    share.set(xlim=(0, 100), ylim=(-0.5, 1.3), yticks=[], xlabel=f"share of the {whole} [%]")
     share.grid(visible=False)
     share.spines["left"].set_visible(False)
     return figure

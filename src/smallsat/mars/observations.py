@@ -1,6 +1,8 @@
 """What this study computes for every published result, in the printed units."""
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from math import isnan
 
 import numpy as np
 
@@ -24,6 +26,7 @@ from smallsat.mars.simulation import POINTING_RUNS, START, reference, tracking_e
 # Places in the document, by run; the times stand in the ids.
 POINTING_TABLES = {"sun": "table-4", "nadir": "table-5", "gmo": "table-6"}
 POINTING_TIMES = ("15", "100", "200", "400")
+OVERFLOW = "not converged: its run overflows"
 MISSION_TIMES = ("300", "2100", "3400", "4400", "5600")
 
 
@@ -39,9 +42,10 @@ def observations(
     given
         The same in SI units.
     runs
-        Records of the document's runs, from `smallsat.mars.simulation.document_runs`.
+        Records of the document's runs, from `smallsat.mars.simulation.document_runs`; not a number
+        where one overflowed.
     """
-    return [
+    found = [
         *_orbits(section, given),
         *_frames(section, given),
         *_initial_tracking_errors(section, given),
@@ -49,6 +53,7 @@ def observations(
         *_gains(given),
         *_pointing_runs(section, runs),
     ]
+    return [replace(one, note=OVERFLOW) if isnan(one.computed) else one for one in found]
 
 
 def row_at(record: np.ndarray, time: float, key: str) -> np.ndarray:

@@ -37,7 +37,8 @@ def response_data(trajectories: pd.DataFrame, run: str) -> pd.DataFrame:
 def response_figure(data: pd.DataFrame) -> Figure:
     """Nine panels from `response_data`: columns sigma, omega and u, rows the components 1 to 3.
 
-    Curves of MRPs break where these go over to the shadow set.
+    Curves of MRPs break where these go over to the shadow set. A run that overflowed is empty and
+    says so.
     """
     figure, panels = subplots(3, 3, sharex=True, figsize=(6.3, 5.0))
     columns = (
@@ -60,6 +61,8 @@ def response_figure(data: pd.DataFrame) -> Figure:
                 panel.sharey(panels[0, column])
     for panel in panels[-1]:
         panel.set_xlabel("time [s]")
+    if data["sigma_1"].isna().all():
+        figure.text(0.5, 0.5, "not converged", ha="center", color="C3", fontsize=12)
     lines = panels[0, 0].get_lines()
     if len(lines) > 1:
         figure.legend(lines, ["body", "reference frame"], loc="outside upper center", ncols=2)

@@ -99,13 +99,16 @@ def scene_figure(given: Parameters, scene: Scene) -> Figure:
     wide.plot(*scene.gmo, "o", color="C3", ms=6, zorder=9)
     for axes in (wide, near):
         axes.plot(*scene.lmo, "o", color="black", ms=4.5, zorder=order)
-    draw_body_axes(near, scene, ARROW * given.lmo.radius / KM, order)
+    known = bool(np.isfinite(scene.body_axes).all())
+    if known:
+        draw_body_axes(near, scene, ARROW * given.lmo.radius / KM, order)
     if scene.mode == GMO:
         ends = np.array([scene.lmo, scene.gmo])
         wide.plot(*ends.T, color="C3", lw=1.0, ls=":", zorder=8)
     draw_directions(figure, (0.37, 0.06, 0.24, 0.36))
 
-    figure.text(0.5, 0.94, f"t = {scene.time:g} s: {MODE_TITLES[scene.mode]}", ha="center")
+    note = "" if known else ", attitude not converged"
+    figure.text(0.5, 0.94, f"t = {scene.time:g} s: {MODE_TITLES[scene.mode]}{note}", ha="center")
     figure.legend(
         handles=legend_handles(), loc="lower center", ncols=4, fontsize=7, columnspacing=1.2
     )

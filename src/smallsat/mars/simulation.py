@@ -209,6 +209,11 @@ def day_run(section: Config, given: Parameters) -> np.ndarray:
     )
 
 
+def finite(record: np.ndarray) -> bool:
+    """Whether a run's attitude and rate are numbers from its start to its end."""
+    return bool(np.isfinite(record[:, 1:7]).all())
+
+
 def as_table(record: np.ndarray) -> pd.DataFrame:
     """A run as a tidy table with the columns of `COLUMNS`."""
     table = pd.DataFrame(record, columns=list(COLUMNS))

@@ -1,0 +1,67 @@
+"""A run that overflows: a row that says so, and nothing that rests on it."""
+
+import copy
+
+import numpy as np
+import pytest
+
+from smallsat.drawing.style import apply_style
+from smallsat.mars import claims, errata
+from smallsat.mars.__main__ import _check, _simulate
+from smallsat.mars.response_plot import response_data, response_figure
+from smallsat.results import read_table
+
+
+@pytest.fixture(scope="module")
+def short(section):
+    """A hundred times the torque, and runs no longer than that needs."""
+    changed = copy.deepcopy(section)
+    changed["fixed_torque_N_m"] = [1.0, -1.0, 2.0]
+    changed["durations_s"] = {"response": 500.0, "mission": 300.0, "day": 300.0}
+    changed["answer_times_s"] |= {"pointing": [15.0], "mission": [300.0]}
+    return changed
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory, short):
+    folder = tmp_path_factory.mktemp("results")
+    _simulate(short, folder)
+    _check(short | {"durations_s": short["durations_s"] | {"response": 30.0}}, folder)
+    return folder
+
+
+def test_the_row_names_run_time_and_method(results):
+    """The one run that overflows is listed; the others are flown to their ends."""
+    table = read_table(results / "not-converged.csv")
+    assert table["case"].tolist() == ["the run 'fixed torque'"]
+    assert "no number from" in table["status"][0] and "Runge-Kutta" in table["tried"][0]
+    flown = read_table(results / "trajectories.parquet")
+    lost = flown.groupby("run")["sigma_1"].apply(lambda sigma: sigma.isna().all())
+    assert lost[lost].index.tolist() == ["fixed torque"]
+
+
+def test_what_needs_the_run_is_not_decided(short, results):
+    """Claims and proofs say that a case is missing; they do not judge what is none."""
+    config = {"mars": short}
+    for predicate in (claims.rates_oscillate_about_zero, claims.step_leaves_artefacts):
+        with pytest.raises(LookupError, match="overflowed"):
+            predicate(config, results)
+    with pytest.raises(LookupError, match="overflowed"):
+        errata.second_rate_panel(config, results)
+
+
+def test_its_figure_says_so(results):
+    """Empty panels with a word, not curves of what is no number."""
+    apply_style()
+    data = response_data(read_table(results / "trajectories.parquet"), "fixed torque")
+    figure = response_figure(data)
+    assert "not converged" in [text.get_text() for text in figure.texts]
+    drawn = [line.get_ydata() for panel in figure.axes for line in panel.get_lines()]
+    assert all(np.isnan(np.asarray(values, dtype=float)).all() for values in drawn)
+
+
+def test_a_run_that_is_known_says_nothing(results):
+    """The word is for missing runs alone."""
+    apply_style()
+    data = response_data(read_table(results / "trajectories.parquet"), "sun")
+    assert not [text for text in response_figure(data).texts if "converged" in text.get_text()]
