@@ -1,5 +1,7 @@
 # Slew: torque-optimal turns of a CubeSat with degraded reaction wheels.
 
+from smallsat.slew.bound import plan_titles
+
 SLEW = "data/results/slew"
 SLEW_SECTION = config["slew"]
 
@@ -13,6 +15,7 @@ SLEW_RUNS = {
         "minimum-time-starts.csv",
         "minimum-times-seconds.csv",
         "bound.csv",
+        "minimum-times-unsolved.csv",
     ],
     "plans": [
         "plans.csv",
@@ -23,10 +26,16 @@ SLEW_RUNS = {
         "replays.parquet",
         "propagator.csv",
         "plan-seconds.csv",
+        "plans-unsolved.csv",
     ],
-    "trade-off": ["trade-off.csv", "trade-off-plans.parquet", "trade-off-seconds.csv"],
-    "degradation": ["degradation.csv"],
-    "tracking": ["tracking.csv", "tracking-flights.parquet"],
+    "trade-off": [
+        "trade-off.csv",
+        "trade-off-plans.parquet",
+        "trade-off-seconds.csv",
+        "trade-off-unsolved.csv",
+    ],
+    "degradation": ["degradation.csv", "degradation-unsolved.csv"],
+    "tracking": ["tracking.csv", "tracking-flights.parquet", "tracking-unsolved.csv"],
 }
 # Seconds differ from run to run, so nothing that is judged depends on them.
 SLEW_TABLES = [
@@ -36,25 +45,21 @@ SLEW_TABLES = [
 STUDY_RESULTS["slew"] = [f"{SLEW}/observations.csv", *SLEW_TABLES]
 
 # Figures of each notebook run: few, so that one figure alone is made in seconds.
-SLEW_IMPOSSIBLE = (
-    "least infeasible plan: the target cannot be reached from rest to rest in"
-    f" {SLEW_SECTION['manoeuvre']['duration_s']:g} s"
-)
 SLEW_MOTIONS = {
-    "eigenaxis-quarter": ("flights", "eigenaxis quarter", ["fig-03", "fig-04", "fig-05"], ""),
-    "eigenaxis-half": ("flights", "eigenaxis half", ["fig-06", "fig-07", "fig-08"], ""),
-    "optimal-quarter": ("replays", "90 deg, one segment", ["fig-10", "fig-11", "fig-12"], ""),
+    "eigenaxis-quarter": ("flights", {"eigenaxis quarter": ""}, ["fig-03", "fig-04", "fig-05"]),
+    "eigenaxis-half": ("flights", {"eigenaxis half": ""}, ["fig-06", "fig-07", "fig-08"]),
+    "optimal-quarter": (
+        "replays",
+        plan_titles(SLEW_SECTION, "quarter"),
+        ["fig-10", "fig-11", "fig-12"],
+    ),
     "optimal-half": (
         "replays",
-        "180 deg, least infeasible, one segment",
+        plan_titles(SLEW_SECTION, "half"),
         ["fig-14", "fig-15", "fig-16"],
-        SLEW_IMPOSSIBLE,
     ),
 }
-SLEW_PLANS = {
-    "plan-quarter": ("fig-09", "90 deg, one segment", ""),
-    "plan-half": ("fig-13", "180 deg, least infeasible, one segment", SLEW_IMPOSSIBLE),
-}
+SLEW_PLANS = {"plan-quarter": ("fig-09", "quarter"), "plan-half": ("fig-13", "half")}
 SLEW_SCHEMATICS = ["fig-01", "fig-17", "fig-18", "fig-19"]
 SLEW_BEYOND = ["trade-off", "degradation", "tracking"]
 SLEW_DRAWING = NOTEBOOK_SOURCES + sources(
@@ -113,7 +118,7 @@ rule slew_observations:
         " --output-folder {params.folder} > {log} 2>&1"
 
 
-for name, (table, flight, figures, title) in SLEW_MOTIONS.items():
+for name, (table, flights, figures) in SLEW_MOTIONS.items():
 
     rule:
         name:
@@ -134,10 +139,9 @@ for name, (table, flight, figures, title) in SLEW_MOTIONS.items():
                 {
                     "section": SLEW_SECTION,
                     "flights_path": f"{SLEW}/{table}.parquet",
-                    "flight": flight,
+                    "flights": flights,
                     "folder": "figures/slew",
                     "figures": dict(zip(["attitude", "usage", "traces"], figures, strict=True)),
-                    "title": title,
                 }
             ),
         message:
@@ -146,7 +150,7 @@ for name, (table, flight, figures, title) in SLEW_MOTIONS.items():
             NOTEBOOK
 
 
-for name, (figure, plan, title) in SLEW_PLANS.items():
+for name, (figure, case) in SLEW_PLANS.items():
 
     rule:
         name:
@@ -167,9 +171,8 @@ for name, (figure, plan, title) in SLEW_PLANS.items():
                 {
                     "section": SLEW_SECTION,
                     "nodes_path": f"{SLEW}/plan-nodes.parquet",
-                    "plan": plan,
+                    "plans": plan_titles(SLEW_SECTION, case),
                     "figure_path": f"figures/slew/{figure}",
-                    "title": title,
                 }
             ),
         message:
@@ -245,7 +248,7 @@ rule slew_beyond:
     benchmark:
         "logs/slew/beyond.benchmark.tsv"
     params:
-        parameters=as_json({"results": SLEW, "folder": "figures/slew"}),
+        parameters=as_json({"section": SLEW_SECTION, "results": SLEW, "folder": "figures/slew"}),
     message:
         "slew: draw what goes beyond the document"
     shell:

@@ -8,6 +8,7 @@ import pytest
 from smallsat.errors import InputError
 from smallsat.optimal_control.gauss_pseudospectral import Mesh
 from smallsat.slew import minimum_time
+from smallsat.slew.bound import bound_time, largest_disturbance, reach
 from smallsat.slew.claims import bang_coast_bang
 from smallsat.slew.flights import controller
 from smallsat.slew.guidance import Model
@@ -85,7 +86,7 @@ def test_benchmark_of_bilimoria_and_wie(section, given, case):
 
 def test_bound_is_below_every_plan_and_above_the_printed_time(given):
     """No plan in 100 s: the bound lies between 100 s and the least time of about 105.39 s."""
-    bare, outer = (minimum_time.bound_time(given, gradient) for gradient in (False, True))
+    bare, outer = (bound_time(given, gradient) for gradient in (False, True))
     assert given.duration < outer < bare < 105.38
     # By hand without the environment: pi = sqrt(a_y^2 + a_z^2) t^2 / 4.
     rate = given.torque * np.hypot(1 / given.inertia[1, 1], 1 / given.inertia[2, 2])
@@ -97,9 +98,8 @@ def test_bound_covers_flown_motion(section, given):
     flown = run(given, plant(given), controller(section, given, "half"), 100.0, 0.01)
     speed = np.hypot(flown["omega_y"], flown["omega_z"])
     path = np.trapezoid(speed, flown["time_s"])
-    left = tuple(np.abs(flown[["h_y", "h_z"]].to_numpy()[-1]))
-    disturbance = minimum_time.largest_disturbance(given, 100.0)
-    bound = minimum_time.reach(np.diag(given.inertia), given.torque, 100.0, left, disturbance)
+    left = tuple(np.abs(flown[["h_x", "h_y", "h_z"]].to_numpy()[-1]))
+    bound = reach(given.inertia, given.torque, 100.0, left, largest_disturbance(given, 100.0))
     assert path < bound
 
 

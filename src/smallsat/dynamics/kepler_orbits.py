@@ -67,7 +67,10 @@ def acceleration(r, mu, radius, j2):
 def fly(
     position: np.ndarray, velocity: np.ndarray, gravity: Gravity, times: np.ndarray
 ) -> np.ndarray:
-    """States (n, 6) at times, s, from a state at the first; relative error about 1e-12 an orbit."""
+    """States (n, 6) at times, s, from a state at the first; relative error about 1e-12 an orbit.
+
+    Not a number from where the integration ends before its time, as in a fall into the centre.
+    """
     solution = solve_ivp(
         lambda t, y: np.r_[y[3:], acceleration(y[:3], *gravity)],
         (times[0], times[-1]),
@@ -77,8 +80,9 @@ def fly(
         rtol=1e-12,
         atol=1e-6,
     )
-    assert solution.success, solution.message
-    return solution.y.T
+    states = np.full((len(times), 6), np.nan)
+    states[: len(solution.t)] = solution.y.T
+    return states
 
 
 def period(semi_major_axis: float, mu: float) -> float:

@@ -11,27 +11,29 @@ import pandas as pd
 
 from smallsat.config import Config
 from smallsat.errors import report_input_errors
-from smallsat.evidence.not_converged import not_converged_table
+from smallsat.evidence.not_converged import NotConverged, not_converged_table
 from smallsat.evidence.observation import observations_table
-from smallsat.optimal_control.gauss_pseudospectral import Mesh
-from smallsat.results import write_table
+from smallsat.results import read_table, write_table
 from smallsat.slew import beyond, controller_search, environment_study, minimum_time
+from smallsat.slew.bound import bound_time
 from smallsat.slew.flights import eigenaxis_flights, replay
 from smallsat.slew.observations import observations, timings
 from smallsat.slew.onboard import final_orbit_states, third_order, transition_errors
 from smallsat.slew.parameters import Parameters, check, parameters
-from smallsat.slew.plans import (
-    best_plan,
-    guidance_model,
-    held_table,
-    hold,
-    least_infeasible,
-    node_table,
-    resampled,
-    summary,
+from smallsat.slew.plans import HELD_COLUMNS, guidance_model, joined, resampled
+from smallsat.slew.simulation import COLUMNS
+from smallsat.slew.turns import (
+    INFEASIBLE,
+    NODE_COLUMNS,
+    START_COLUMNS,
+    free_plans,
+    turn_plans,
 )
 
 REPETITIONS = 10
+# Commands that solve, and list what they did not in a table of their own.
+SOLVING = ("minimum-times", "plans", "trade-off", "degradation", "tracking")
+FLOWN = ("trade-off-plans", "tracking-flights")
 
 
 def main() -> None:
@@ -71,88 +73,52 @@ def _search(section: Config, given: Parameters, folder: Path) -> None:
 
 
 def _minimum_times(section: Config, given: Parameters, folder: Path) -> None:
-    for name, table in minimum_time.tables(section, given).items():
-        write_table(table, folder / f"{name}.csv")
+    tables, missing = minimum_time.tables(section, given)
     bounds = [
         {
             "model": "wheels, gravity gradient" if gradient else "wheels",
-            "bound_s": minimum_time.bound_time(given, gradient),
+            "bound_s": bound_time(given, gradient),
         }
         for gradient in (False, True)
     ]
     write_table(pd.DataFrame(bounds), folder / "bound.csv")
+    _write(tables, missing, "minimum-times", folder)
 
 
 def _plans(section: Config, given: Parameters, folder: Path) -> None:
-    model, manoeuvre = guidance_model(given), section["manoeuvre"]
-    rows, nodes, replays, seconds, helds, starts = [], [], [], [], [], []
-    quarter = manoeuvre["quarter"]
-    meshes = {
-        "one segment": Mesh(1, quarter["nodes"]),
-        "segments": Mesh(quarter["segments"], quarter["segment_nodes"]),
-    }
-    for kind, mesh in meshes.items():
-        name = f"90 deg, {kind}"
-        result, found = best_plan(
-            model, given, "quarter", given.duration, mesh, section, section["numerics"]["starts"]
-        )
-        held = hold(model, given, "quarter", result, section) if kind == "segments" else None
-        if held is not None:
-            helds.append(held_table(model, held, name))
-        rows.append(summary(model, given, name, result, found, held))
-        starts.append(found.assign(plan=name))
-        table = node_table(model, result, given, name)
-        nodes.append(table)
-        seconds.append({"plan": name, "seconds": result.seconds})
-        torques = resampled(table, section["resampling_hz"])
-        replays.append(replay(given, section, torques, given.duration).assign(flight=name))
+    model = guidance_model(given)
+    turns = [
+        *turn_plans(model, given, "quarter", section),
+        *free_plans(given, section),
+        *turn_plans(model, given, "half", section),
+    ]
+    write_table(pd.DataFrame([turn.row for turn in turns]), folder / "plans.csv")
+    infeasible = pd.DataFrame(
+        [turn.infeasible for turn in turns if turn.infeasible], columns=list(INFEASIBLE)
+    )
+    write_table(infeasible, folder / "infeasible.csv")
+    starts = [turn.starts for turn in turns if turn.starts is not None]
+    write_table(joined(starts, START_COLUMNS), folder / "plan-starts.csv")
+    nodes = [turn.nodes for turn in turns if turn.nodes is not None]
+    write_table(joined(nodes, NODE_COLUMNS), folder / "plan-nodes.parquet")
+    helds = [turn.held for turn in turns if turn.held is not None]
+    write_table(joined(helds, HELD_COLUMNS), folder / "held-plans.parquet")
 
-    # The same problem without the gravity gradient, which has a solution by hand.
-    free = type(model)(given.inertia, given.torque, given.momentum, given.duration, True, None)
-    for kind, mesh in meshes.items():
-        name = f"90 deg, no gravity gradient, {kind}"
-        result, found = best_plan(free, given, "quarter", given.duration, mesh, section, 3)
-        held = hold(free, given, "quarter", result, section) if kind == "segments" else None
-        rows.append(summary(free, given, name, result, found, held))
-
-    half = manoeuvre["half"]
-    meshes = {
-        "one segment": Mesh(1, half["nodes"]),
-        "segments": Mesh(half["segments"], half["segment_nodes"]),
-    }
-    infeasible = []
-    for kind, mesh in meshes.items():
-        name = f"180 deg, least infeasible, {kind}"
-        result, refused = least_infeasible(model, given, "half", given.duration, mesh, section)
-        table = node_table(model, result, given, name)
-        nodes.append(table)
-        seconds.append({"plan": name, "seconds": result.seconds})
-        rows.append(summary(model, given, name, result, pd.DataFrame({"converged": [True]}), None))
-        infeasible.append(
-            {
-                "mesh": kind,
-                "hard_status": refused.status,
-                "hard_converged": refused.converged,
-                "soft_status": result.solution.status,
-                "miss": result.solution.objective,
-            }
+    replays = {
+        str(nodes["plan"].iloc[0]): replay(
+            given, section, resampled(nodes, section["resampling_hz"]), given.duration
         )
-        torques = resampled(table, section["resampling_hz"])
-        replays.append(replay(given, section, torques, given.duration).assign(flight=name))
-    write_table(pd.DataFrame(rows), folder / "plans.csv")
-    write_table(pd.DataFrame(infeasible), folder / "infeasible.csv")
-    write_table(pd.concat(starts, ignore_index=True), folder / "plan-starts.csv")
-    write_table(pd.concat(nodes, ignore_index=True), folder / "plan-nodes.parquet")
-    write_table(pd.concat(helds, ignore_index=True), folder / "held-plans.parquet")
-    flights = pd.concat(replays, ignore_index=True)
-    write_table(flights, folder / "replays.parquet")
-    chosen = {
-        name: flights[flights["flight"] == name].reset_index(drop=True)
-        for name in ("90 deg, segments", "180 deg, least infeasible, segments")
+        for nodes in nodes
     }
+    flights = [flown.assign(flight=name) for name, flown in replays.items()]
+    write_table(joined(flights, (*COLUMNS, "flight")), folder / "replays.parquet")
+    chosen = {name: flown for name, flown in replays.items() if name.endswith(", segments")}
     write_table(transition_errors(chosen), folder / "propagator.csv")
+    seconds = [{"plan": turn.row["plan"], "seconds": turn.seconds} for turn in turns if turn.timed]
     seconds.append({"plan": "on-board propagator", "seconds": _propagator_seconds(section, given)})
     write_table(pd.DataFrame(seconds), folder / "plan-seconds.csv")
+    missing = [row for turn in turns for row in turn.missing]
+    write_table(not_converged_table(missing), folder / "plans-unsolved.csv")
 
 
 def _propagator_seconds(section: Config, given: Parameters) -> float:
@@ -168,27 +134,34 @@ def _propagator_seconds(section: Config, given: Parameters) -> float:
 
 
 def _trade_off(section: Config, given: Parameters, folder: Path) -> None:
-    tables = beyond.trade_off(section, given)
-    write_table(tables["trade-off"], folder / "trade-off.csv")
-    write_table(tables["trade-off-plans"], folder / "trade-off-plans.parquet")
-    write_table(tables["trade-off-seconds"], folder / "trade-off-seconds.csv")
+    _write(*beyond.trade_off(section, given), "trade-off", folder)
 
 
 def _degradation(section: Config, given: Parameters, folder: Path) -> None:
-    write_table(beyond.degradation(section, given), folder / "degradation.csv")
+    _write(*beyond.degradation(section, given), "degradation", folder)
+
+
+def _tracking(section: Config, given: Parameters, folder: Path) -> None:
+    _write(*beyond.tracking(section, given), "tracking", folder)
 
 
 def _observe(section: Config, given: Parameters, folder: Path) -> None:
     found = observations_table(observations(section, given, folder))
     write_table(found, folder / "observations.csv")
-    write_table(not_converged_table([]), folder / "not-converged.csv")
-    write_table(timings(folder), folder / "timings.csv")
+    missing = [read_table(folder / f"{run}-unsolved.csv", ("status", "tried")) for run in SOLVING]
+    missing = [table for table in missing if len(table)] or missing[:1]
+    write_table(pd.concat(missing, ignore_index=True), folder / "not-converged.csv")
+    write_table(timings(given, folder), folder / "timings.csv")
 
 
-def _tracking(section: Config, given: Parameters, folder: Path) -> None:
-    tables = beyond.tracking(section, given)
-    write_table(tables["tracking"], folder / "tracking.csv")
-    write_table(tables["tracking-flights"], folder / "tracking-flights.parquet")
+def _write(
+    tables: dict[str, pd.DataFrame], missing: list[NotConverged], run: str, folder: Path
+) -> None:
+    """The tables of a run, flights as Parquet, and the cases that it did not solve."""
+    for name, table in tables.items():
+        suffix = "parquet" if name in FLOWN else "csv"
+        write_table(table, folder / f"{name}.{suffix}")
+    write_table(not_converged_table(missing), folder / f"{run}-unsolved.csv")
 
 
 if __name__ == "__main__":

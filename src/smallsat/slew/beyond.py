@@ -1,22 +1,28 @@
 """Beyond the document: longer times, closed-loop tracking, and the wheels' degradation."""
 
+from math import nan
+
 import numpy as np
 import pandas as pd
 
 from smallsat.config import Config
 from smallsat.dynamics.quaternions import error_quaternion, turn_angle
+from smallsat.evidence.not_converged import NotConverged
 from smallsat.optimal_control.gauss_pseudospectral import Mesh
-from smallsat.optimal_control.switching_times import arcs_of, refine
 from smallsat.slew.flights import controller
-from smallsat.slew.guidance import Guidance, problem, tilts, turning_guess
+from smallsat.slew.guidance import tilts
+from smallsat.slew.minimum_time import eigenaxis_time, fastest, guess, not_found
 from smallsat.slew.parameters import MILLI, Parameters
 from smallsat.slew.plans import (
+    HELD_COLUMNS,
     SWEEP_STARTS,
     best_plan,
     guidance_model,
+    held_if_converged,
     held_table,
-    hold,
+    joined,
     summary,
+    unsolved,
 )
 from smallsat.slew.simulation import TRACKING, Command, Plant, open_loop, plant, run
 
@@ -24,8 +30,6 @@ STATE = ["q_1", "q_2", "q_3", "q_4", "omega_x", "omega_y", "omega_z"]
 TORQUE = ["u_x", "u_y", "u_z"]
 # In the degradation sweep the torque-optimal turn takes this much longer than the fastest one.
 SLACK = 1.1
-# A wheel counts as full from this share of its momentum on.
-FULL = 0.995
 
 
 def half_mesh(section: Config) -> Mesh:
@@ -34,77 +38,106 @@ def half_mesh(section: Config) -> Mesh:
     return Mesh(entry["segments"], entry["segment_nodes"])
 
 
-def trade_off(section: Config, given: Parameters) -> dict[str, pd.DataFrame]:
-    """Feasible minimum-torque plans of the 180 deg turn for longer times."""
+Tables = tuple[dict[str, pd.DataFrame], list[NotConverged]]
+
+
+def trade_off(section: Config, given: Parameters) -> Tables:
+    """Minimum-torque plans of the larger turn for longer times; those that did not converge."""
     model = guidance_model(given)
     rows, tables, seconds = [], [], []
+    missing: list[NotConverged] = []
     for duration in section["beyond"]["trade_off_s"]:
-        name = f"180 deg, {duration:g} s"
+        name = f"{given.names['half']}, {duration:g} s"
         result, starts = best_plan(
             model, given, "half", duration, half_mesh(section), section, SWEEP_STARTS
         )
-        held = hold(model, given, "half", result, section)
+        missing += unsolved(f"trade-off, {name}", result, f"{len(starts)} starts")
+        held, failed = held_if_converged(
+            model, given, "half", f"trade-off, {name}", result, section
+        )
+        missing += failed
         rows.append(summary(model, given, name, result, starts, held))
-        tables.append(held_table(model, held, name))
+        rows[-1]["held_converged"] = bool(held and held.solution.converged)
+        if held and held.solution.converged:
+            tables.append(held_table(model, held, name))
         seconds.append({"plan": name, "seconds": result.seconds})
     return {
         "trade-off": pd.DataFrame(rows),
-        "trade-off-plans": pd.concat(tables, ignore_index=True),
+        "trade-off-plans": joined(tables, HELD_COLUMNS),
         "trade-off-seconds": pd.DataFrame(seconds),
-    }
+    }, missing
 
 
-def degradation(section: Config, given: Parameters) -> pd.DataFrame:
-    """Least time of the 180 deg turn, and least torque in a tenth more, over the wheels' torque."""
+def degradation(section: Config, given: Parameters) -> Tables:
+    """Least time of the larger turn, and least torque in a tenth more, over the wheels' torque."""
     wheels, target = section["wheels"], given.targets["half"]
     healthy = wheels["torque_mN_m"] * MILLI / (wheels["torque_share_pct"] / 100.0)
     known = wheels["torque_share_pct"]
+    axis = given.axis("half")
     rows = []
+    missing: list[NotConverged] = []
     for share in section["beyond"]["torque_shares_pct"]:
         torque = healthy * share / 100.0
-        # Without other torques, times go with the root of the torque; a guess, nothing more.
-        about = 115.0 * np.sqrt(known / share)
-        model = guidance_model(given, torque, about)
-        stated = problem(model, given.initial, target, (0.5 * about, 2.0 * about), least_time=True)
-        guidance = Guidance(model, stated, half_mesh(section))
-        results = [
-            guidance.solve(turning_guess(model, given.initial, target, about, tilt), [1.0])
-            for tilt in tilts(SWEEP_STARTS, section["numerics"]["seed"])
-        ]
-        best = min((r for r in results if r.solution.converged), key=lambda r: r.duration)
-        least, converged = best.duration, True
-        used = np.abs(best.plan.states[:, 7:]).max() * model.momentum_unit / given.momentum
-        limited = bool(used > FULL)
-        # Where a wheel is full it turns on without torque, and the plan is no longer bang-bang.
-        if not limited:
-            arcs, solution = refine(
-                model.rate,
-                stated.initial,
-                stated.terminal,
-                arcs_of(best.plan.times, best.plan.controls, best.plan.final_time),
-            )
-            least, converged = arcs.final_time * model.unit, solution.converged
-        plan, _ = best_plan(
-            model, given, "half", SLACK * least, half_mesh(section), section, SWEEP_STARTS
+        # Without other torques, times go with the root of the torque; a guess, nothing more. Where
+        # the wheels fill, they go slower than that.
+        about = guess(given, "half") * np.sqrt(known / share)
+        alone = eigenaxis_time(
+            np.radians(given.angle_deg("half")),
+            float(axis @ given.inertia @ axis),
+            torque,
+            given.momentum,
         )
-        peaks = np.abs(plan.plan.states[:, 7:]).max() * model.momentum_unit / given.momentum
-        rows.append(
-            {
-                "torque_share_pct": share,
-                "torque_mN_m": torque / MILLI,
-                "least_time_s": least,
-                "least_time_converged": converged,
-                "momentum_limited": limited,
+        model = guidance_model(given, torque, about)
+        found = fastest(
+            model,
+            given.initial,
+            target,
+            about,
+            (0.5 * about, max(2.0 * about, 1.5 * alone)),
+            half_mesh(section),
+            tilts(SWEEP_STARTS, section["numerics"]["seed"]),
+        )
+        row = {
+            "torque_share_pct": share,
+            "torque_mN_m": torque / MILLI,
+            "least_time_s": found.duration,
+            "least_time_converged": found.converged,
+            "momentum_limited": found.momentum_limited,
+            "plan_time_s": nan,
+            "plan_converged": False,
+            "cost_N_m_s": nan,
+            "largest_peak_momentum_pct": nan,
+        }
+        if not found.converged:
+            missing.append(not_found(f"least time with {share:g} % of the torque", found))
+        if found.collocated.solution.converged:
+            plan, starts = best_plan(
+                model,
+                given,
+                "half",
+                SLACK * (found.duration if found.converged else found.collocated.duration),
+                half_mesh(section),
+                section,
+                SWEEP_STARTS,
+            )
+            peaks = np.abs(plan.plan.states[:, 7:]).max() * model.momentum_unit / given.momentum
+            row |= {
                 "plan_time_s": plan.duration,
                 "plan_converged": plan.solution.converged,
-                "cost_N_m_s": plan.cost,
-                "largest_peak_momentum_pct": 100.0 * float(peaks),
             }
-        )
-    return pd.DataFrame(rows)
+            missing += unsolved(
+                f"least torque with {share:g} % of the torque", plan, f"{len(starts)} starts"
+            )
+            if plan.solution.converged:
+                row |= {
+                    "cost_N_m_s": plan.cost,
+                    "largest_peak_momentum_pct": 100.0 * float(peaks),
+                }
+        rows.append(row)
+    return {"degradation": pd.DataFrame(rows)}, missing
 
 
-def tracking(section: Config, given: Parameters) -> dict[str, pd.DataFrame]:
+def tracking(section: Config, given: Parameters) -> Tables:
     """The optimal plan followed in closed loop, beside open loop and the eigenaxis law.
 
     The plan leaves a margin of torque to the controller. Flown in the fuller model with and without
@@ -115,40 +148,37 @@ def tracking(section: Config, given: Parameters) -> dict[str, pd.DataFrame]:
     model = guidance_model(given, margin * given.torque)
     manoeuvre = section["manoeuvre"]
     turns = {
-        "90 deg": ("quarter", given.duration),
-        "180 deg": ("half", max(section["beyond"]["trade_off_s"])),
+        given.names["quarter"]: ("quarter", given.duration),
+        given.names["half"]: ("half", max(section["beyond"]["trade_off_s"])),
     }
     rows, tables = [], []
+    missing: list[NotConverged] = []
     for turn, (case, duration) in turns.items():
         mesh = Mesh(manoeuvre[case]["segments"], manoeuvre[case]["segment_nodes"])
-        result, _ = best_plan(model, given, case, duration, mesh, section, SWEEP_STARTS)
-        held = hold(model, given, case, result, section)
-        table = held_table(model, held, turn)
-        at = np.arange(round(duration * section["resampling_hz"]) + 1) / section["resampling_hz"]
-        times = table["time_s"].to_numpy()
-        # The torque of a piece holds from its start to its end.
-        piece = np.clip(np.searchsorted(times, at, side="right") - 1, 0, len(times) - 2)
-        plan = np.column_stack(
-            [table[TORQUE].to_numpy()[piece]]
-            + [np.interp(at, times, table[name]) for name in STATE]
-        )
+        name = f"plan to follow, {turn} in {duration:g} s"
+        result, starts = best_plan(model, given, case, duration, mesh, section, SWEEP_STARTS)
+        missing += unsolved(name, result, f"{len(starts)} starts")
+        held, failed = held_if_converged(model, given, case, name, result, section)
+        missing += failed
+        plan = None
+        if held and held.solution.converged:
+            plan = _sampled(held_table(model, held, turn), section, duration)
         for error in (0.0, section["beyond"]["inertia_error_pct"]):
             real = plant(given, inertia_factor=1.0 + error / 100.0)
             step = 1.0 / section["resampling_hz"]
-            commands = {
-                "open loop": open_loop(given, step, plan[:, :3]),
-                "closed loop on the plan": _tracking(section, given, step, plan),
-                "eigenaxis law": controller(section, given, case),
-            }
+            commands: dict[str, Command] = {}
+            if plan is not None:
+                commands["open loop"] = open_loop(given, step, plan[:, :3])
+                commands["closed loop on the plan"] = _tracking(section, given, step, plan)
+            commands["eigenaxis law"] = controller(section, given, case)
             for name, command in commands.items():
                 row, flown = _fly(section, given, real, command, case, duration)
-                converged = held.solution.converged and result.solution.converged
                 rows.append(
                     {
                         "turn": turn,
                         "inertia_error_pct": error,
                         "control": name,
-                        "plan_converged": converged,
+                        "plan_converged": plan is not None,
                     }
                     | row
                 )
@@ -156,7 +186,18 @@ def tracking(section: Config, given: Parameters) -> dict[str, pd.DataFrame]:
     return {
         "tracking": pd.DataFrame(rows),
         "tracking-flights": pd.concat(tables, ignore_index=True),
-    }
+    }, missing
+
+
+def _sampled(table: pd.DataFrame, section: Config, duration: float) -> np.ndarray:
+    """A held plan at the resampling rate, shape (n, 10): torque, quaternion, rate."""
+    at = np.arange(round(duration * section["resampling_hz"]) + 1) / section["resampling_hz"]
+    times = table["time_s"].to_numpy()
+    # The torque of a piece holds from its start to its end.
+    piece = np.clip(np.searchsorted(times, at, side="right") - 1, 0, len(times) - 2)
+    return np.column_stack(
+        [table[TORQUE].to_numpy()[piece]] + [np.interp(at, times, table[name]) for name in STATE]
+    )
 
 
 def _tracking(section: Config, given: Parameters, step: float, plan: np.ndarray) -> Command:

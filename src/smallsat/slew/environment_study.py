@@ -1,5 +1,7 @@
 """Figure 2: gravity gradient against drag over altitude, with the assumptions as a band."""
 
+from math import nan
+
 import numpy as np
 import pandas as pd
 from scipy.spatial.transform import Rotation
@@ -59,10 +61,17 @@ def torque_table(section: Config, given: Parameters) -> pd.DataFrame:
 
 
 def crossover_km(table: pd.DataFrame, offset_mm: float, factor: float = 1.0) -> float:
-    """Altitude above which the gravity gradient is the larger; the lowest one if it always is."""
+    """Altitude above which the gravity gradient is the larger; the lowest one if it always is.
+
+    Not a number if it is not at the highest.
+    """
     rows = table[(table["offset_mm"] == offset_mm) & np.isclose(table["density_factor"], factor)]
+    rows = rows.sort_values("altitude_km")
     ratio = np.log(rows["gravity_gradient_N_m"].to_numpy() / rows["drag_N_m"].to_numpy())
     altitude = rows["altitude_km"].to_numpy()
     if ratio[0] >= 0.0:
         return float(altitude[0])
-    return float(np.interp(0.0, ratio, altitude))
+    if ratio[-1] < 0.0:
+        return nan
+    last = int(np.flatnonzero(ratio < 0.0)[-1])
+    return float(np.interp(0.0, ratio[last : last + 2], altitude[last : last + 2]))

@@ -14,6 +14,10 @@ from smallsat.dynamics.quaternions import (
 from smallsat.dynamics.reaction_wheels import angular_acceleration
 from smallsat.slew.guidance import Model
 
+# Of Kepler's equation: six find the root to rounding up to this eccentricity, the others beyond it.
+NEWTON_STEPS, NEWTON_STEPS_BEYOND = 6, 20
+MODERATE = 0.7
+
 
 def fly_held(
     model: Model, initial: np.ndarray, durations: np.ndarray, controls: np.ndarray
@@ -21,7 +25,7 @@ def fly_held(
     """States (pieces + 1, 10), scaled, under controls (pieces, 3) held for the scaled durations.
 
     In SI units inside, with an adaptive method of order eight restarted at each piece, and Kepler's
-    equation solved by Newton's method.
+    equation solved by Newton's method. Not a number from where the integration fails.
     """
     inverse = np.linalg.inv(model.inertia)
     carried = float(model.carried)
@@ -43,13 +47,14 @@ def fly_held(
             return np.r_[quaternion_rate(q, tuple(y[4:7])), w, torque]
 
         length = float(duration) * model.unit
-        if length > 0.0:
+        if length > 0.0 and np.isfinite(y).all() and np.isfinite(torque).all():
             solution = solve_ivp(
                 rate, (time, time + length), y, method="DOP853", rtol=1e-11, atol=1e-13
             )
-            assert solution.success, solution.message
-            y = solution.y[:, -1]
+            y = solution.y[:, -1] if solution.success else np.full(10, np.nan)
             time += length
+        elif length != 0.0:
+            y = np.full(10, np.nan)
         states.append(y)
     table = np.array(states)
     table[:, 4:7] *= model.unit
@@ -71,7 +76,7 @@ def _position(orbit: Elements, mu: float, t: float) -> np.ndarray:
     )
     mean = start - e * np.sin(start) + np.sqrt(mu / a**3) * t
     anomaly = mean
-    for _ in range(6):
+    for _ in range(NEWTON_STEPS if e < MODERATE else NEWTON_STEPS_BEYOND):
         anomaly -= (anomaly - e * np.sin(anomaly) - mean) / (1.0 - e * np.cos(anomaly))
     place = np.array([np.cos(anomaly) - e, np.sqrt(1.0 - e * e) * np.sin(anomaly), 0.0])
     return a * place @ perifocal_frame(orbit)

@@ -23,8 +23,8 @@ from smallsat.optimal_control.nonlinear_program import IpoptSolver, Solution
 from smallsat.slew.parameters import Parameters
 
 STATES, CONTROLS = 10, 3
-# Kepler's equation by repeated substitution: what is left is e^6, rounding for our orbit.
-KEPLER_STEPS = 5
+# Kepler's equation is solved by repeated substitution to this, rad: each step gains a factor e.
+KEPLER_ERROR = 1e-13
 
 
 @dataclass(frozen=True)
@@ -81,7 +81,7 @@ class Model:
         )
         mean = at_start - e * np.sin(at_start) + np.sqrt(mu / a**3) * self.unit * t
         anomaly = mean
-        for _ in range(KEPLER_STEPS):
+        for _ in range(kepler_steps(e)):
             anomaly = mean + e * ca.sin(anomaly)
         frame = perifocal_frame(orbit)
         r = (ca.cos(anomaly) - e) * ca.DM(frame[0]) + np.sqrt(1.0 - e * e) * ca.sin(
@@ -92,6 +92,14 @@ class Model:
         length = a * (1.0 - e * ca.cos(anomaly))
         factor = 3.0 * mu / length**3 / ca.dot(r, r)
         return factor * ca.cross(body, ca.mtimes(ca.DM(self.inertia), body))
+
+
+def kepler_steps(eccentricity: float) -> int:
+    """Substitutions that solve Kepler's equation to `KEPLER_ERROR`."""
+    steps, error = 0, eccentricity
+    while error > KEPLER_ERROR:
+        steps, error = steps + 1, error * eccentricity
+    return steps
 
 
 def attitude_error(q: Any, target: np.ndarray) -> Any:

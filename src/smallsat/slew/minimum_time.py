@@ -1,48 +1,58 @@
 """Least times from rest to rest: collocation from many starts, then refined switching times."""
 
 from dataclasses import dataclass
+from math import nan
 
 import numpy as np
 import pandas as pd
 
 from smallsat.config import Config
+from smallsat.evidence.not_converged import NotConverged
 from smallsat.optimal_control.gauss_pseudospectral import Mesh
 from smallsat.optimal_control.switching_times import Arcs, arcs_of, refine
 from smallsat.slew.flown import fly_held, miss
 from smallsat.slew.guidance import Guidance, Model, Result, problem, tilts, turning_guess
-from smallsat.slew.parameters import Parameters
+from smallsat.slew.parameters import MILLI, Parameters
+from smallsat.slew.plans import spread
 
 # Two starts found the same least time if they agree to this, s or its equivalent.
 SAME = 1e-3
 AXES = "xyz"
+# A wheel counts as full from this share of its momentum on.
+FULL = 0.995
 
 
 @dataclass(frozen=True)
 class LeastTime:
-    """A least time with how it was found.
+    """A least time with how it was found; not a number where no start converged.
 
     Attributes
     ----------
     starts
         One row a start: duration, converged, status.
     collocated
-        The best converged solution of the pseudospectral method.
+        The fastest converged solution of the pseudospectral method, or else the last one.
     arcs
-        Bang-bang control with refined switching times, scaled.
+        Bang-bang control with refined switching times, scaled; none where a wheel is full, since it
+        then turns on without torque.
     duration
-        By the refined arcs, s.
-    converged, status
-        Of the refinement.
+        By the refined arcs, or by collocation where there are none, s.
+    converged, status, residual
+        Of the method that gives the duration.
+    momentum_limited
+        Whether a wheel is full at some time.
     attitude_miss, rate_miss
         Of the arcs flown by an independent integrator: rad, and rad/s.
     """
 
     starts: pd.DataFrame
     collocated: Result
-    arcs: Arcs
+    arcs: Arcs | None
     duration: float
     converged: bool
     status: str
+    residual: float
+    momentum_limited: bool
     attitude_miss: float
     rate_miss: float
 
@@ -52,11 +62,31 @@ def least_time(
 ) -> LeastTime:
     """Least time of a turn between two attitudes at rest; ``about`` is a guess of it, s."""
     numerics = section["numerics"]
-    stated = problem(model, initial, target, (0.3 * about, 3.0 * about), least_time=True)
+    return fastest(
+        model,
+        initial,
+        target,
+        about,
+        (0.3 * about, 3.0 * about),
+        mesh,
+        tilts(numerics["starts"], numerics["seed"]),
+    )
+
+
+def fastest(
+    model: Model,
+    initial: np.ndarray,
+    target: np.ndarray,
+    about: float,
+    window: tuple[float, float],
+    mesh: Mesh,
+    tilted: list[tuple[float, float]],
+) -> LeastTime:
+    """Least time within a window, s, from starts tilted off the eigenaxis; ``about`` is a guess."""
+    stated = problem(model, initial, target, window, least_time=True)
     guidance = Guidance(model, stated, mesh)
     results = [
-        guidance.solve(turning_guess(model, initial, target, about, tilt), [1.0])
-        for tilt in tilts(numerics["starts"], numerics["seed"])
+        guidance.solve(turning_guess(model, initial, target, about, tilt), [1.0]) for tilt in tilted
     ]
     starts = pd.DataFrame(
         [
@@ -65,7 +95,23 @@ def least_time(
             for k, r in enumerate(results)
         ]
     )
-    best = min((r for r in results if r.solution.converged), key=lambda r: r.duration)
+    converged = [r for r in results if r.solution.converged]
+    best = min(converged, key=lambda r: r.duration) if converged else results[-1]
+    used = np.abs(best.plan.states[:, 7:]).max() * model.momentum_unit / model.momentum
+    limited = bool(converged and used > FULL)
+    if not converged or limited:
+        return LeastTime(
+            starts=starts,
+            collocated=best,
+            arcs=None,
+            duration=best.duration if converged else nan,
+            converged=bool(converged),
+            status=best.solution.status,
+            residual=best.solution.violation,
+            momentum_limited=limited,
+            attitude_miss=nan,
+            rate_miss=nan,
+        )
     arcs = arcs_of(best.plan.times, best.plan.controls, best.plan.final_time)
     refined, solution = refine(model.rate, stated.initial, stated.terminal, arcs)
     state = fly_held(model, stated.initial, refined.durations, refined.controls)[-1]
@@ -74,12 +120,55 @@ def least_time(
         starts=starts,
         collocated=best,
         arcs=refined,
-        duration=refined.final_time * model.unit,
+        duration=refined.final_time * model.unit if solution.converged else nan,
         converged=solution.converged,
         status=solution.status,
+        residual=solution.violation,
+        momentum_limited=False,
         attitude_miss=attitude,
         rate_miss=rate,
     )
+
+
+def eigenaxis_time(angle: float, moment: float, torque: float, momentum: float) -> float:
+    """Time, s, of a turn about one axis alone: full torque forth and back, coasting if full.
+
+    Parameters
+    ----------
+    angle
+        rad.
+    moment
+        Of inertia about the axis, kg m^2.
+    torque, momentum
+        Limits of the wheel, N m and N m s.
+    """
+    if np.sqrt(angle * moment * torque) <= momentum:
+        return float(2.0 * np.sqrt(angle * moment / torque))
+    return float(angle * moment / momentum + momentum / torque)
+
+
+# Where the search for the least times of the document's two turns begins, s, and what those turns
+# take about their axis alone; other turns, bodies and wheels begin in proportion.
+DOCUMENT_GUESS = {"quarter": 85.0, "half": 115.0}
+DOCUMENT_EIGENAXIS = {
+    case: eigenaxis_time(angle, 0.126, 0.1 * MILLI, 10.3 * MILLI)
+    for case, angle in (("quarter", np.pi / 2.0), ("half", np.pi))
+}
+BENCHMARK_GUESS = {"quarter": (2.5, 90.0), "half": (3.5, 180.0)}
+
+
+def guess(given: Parameters, case: str) -> float:
+    """A guess of the least time of a turn, s."""
+    axis = given.axis(case)
+    moment = float(axis @ given.inertia @ axis)
+    alone = eigenaxis_time(np.radians(given.angle_deg(case)), moment, given.torque, given.momentum)
+    return DOCUMENT_GUESS[case] * (alone / DOCUMENT_EIGENAXIS[case])
+
+
+def benchmark_guess(given: Parameters, case: str) -> float:
+    """The same for a body of unit moments and torques."""
+    about, angle = BENCHMARK_GUESS[case]
+    return about * float(np.sqrt(given.angle_deg(case) / angle))
 
 
 def cases(section: Config, given: Parameters) -> dict[str, tuple[Model, np.ndarray, float, Mesh]]:
@@ -96,20 +185,25 @@ def cases(section: Config, given: Parameters) -> dict[str, tuple[Model, np.ndarr
 
     # Equal moments of inertia and unit torques: the benchmark of Bilimoria and Wie.
     benchmark = Model(np.eye(3), 1.0, 1e6, 1.0, False, None)
+    larger, smaller = given.names["half"], given.names["quarter"]
+    long, short = guess(given, "half"), guess(given, "quarter")
     return {
-        "180 deg, wheels and gravity gradient": (model(True, True), half, 115.0, mesh),
-        "180 deg, wheels": (model(True, False), half, 115.0, mesh),
-        "180 deg, no wheel momentum": (model(False, False), half, 115.0, mesh),
-        "90 deg, wheels and gravity gradient": (model(True, True), quarter, 85.0, mesh),
-        "90 deg, wheels": (model(True, False), quarter, 85.0, mesh),
-        "benchmark, 180 deg": (benchmark, half, 3.5, mesh),
-        "benchmark, 90 deg": (benchmark, quarter, 2.5, mesh),
+        f"{larger}, wheels and gravity gradient": (model(True, True), half, long, mesh),
+        f"{larger}, wheels": (model(True, False), half, long, mesh),
+        f"{larger}, no wheel momentum": (model(False, False), half, long, mesh),
+        f"{smaller}, wheels and gravity gradient": (model(True, True), quarter, short, mesh),
+        f"{smaller}, wheels": (model(True, False), quarter, short, mesh),
+        f"benchmark, {larger}": (benchmark, half, benchmark_guess(given, "half"), mesh),
+        f"benchmark, {smaller}": (benchmark, quarter, benchmark_guess(given, "quarter"), mesh),
     }
 
 
-def tables(section: Config, given: Parameters) -> dict[str, pd.DataFrame]:
-    """Tables by name: least times, switches, starts, and the seconds of the solves."""
+def tables(
+    section: Config, given: Parameters
+) -> tuple[dict[str, pd.DataFrame], list[NotConverged]]:
+    """Tables by name: least times, switches, starts, seconds of the solves; what failed."""
     rows, switches, starts, seconds = [], [], [], []
+    unsolved: list[NotConverged] = []
     for name, (model, target, about, mesh) in cases(section, given).items():
         found = least_time(model, given.initial, target, about, mesh, section)
         converged = found.starts[found.starts["converged"]]
@@ -127,82 +221,28 @@ def tables(section: Config, given: Parameters) -> dict[str, pd.DataFrame]:
                     (converged["duration_s"] - converged["duration_s"].min() < SAME * about).sum()
                 ),
                 "hamiltonian_mean": float(np.mean(h)),
-                "hamiltonian_spread": float(f"{np.ptp(h) / abs(np.mean(h)):.1e}"),
+                "hamiltonian_spread": spread(h),
                 "attitude_miss_rad": float(f"{found.attitude_miss:.1e}"),
                 "rate_miss_rad_s": float(f"{found.rate_miss:.1e}"),
             }
         )
-        for axis, time in found.arcs.switches():
+        if not rows[-1]["converged"]:
+            unsolved.append(not_found(f"least time, {name}", found))
+        for axis, time in found.arcs.switches() if found.arcs else []:
             switches.append({"case": name, "axis": AXES[axis], "time_s": time * model.unit})
         starts.append(found.starts.assign(case=name))
         seconds.append({"case": name, "seconds": found.collocated.seconds})
     return {
         "minimum-times": pd.DataFrame(rows),
-        "switches": pd.DataFrame(switches),
+        "switches": pd.DataFrame(switches, columns=["case", "axis", "time_s"]),
         "minimum-time-starts": pd.concat(starts, ignore_index=True),
         "minimum-times-seconds": pd.DataFrame(seconds),
-    }
+    }, unsolved
 
 
-# --- a bound that needs no optimiser --------------------------------------------------------------
-
-
-def reach(
-    inertia: np.ndarray,
-    torque: float,
-    duration: float,
-    final_momentum: tuple[float, float] = (0.0, 0.0),
-    disturbance: float = 0.0,
-) -> float:
-    """Longest path of the body's x axis on the unit sphere, rad, that the wheels allow in a time.
-
-    From rest, with the wheels at rest, J w = h + H: what the wheels gave and what the environment
-    did. A wheel gives at most torque times time, and must come back, so that |h_i| is at most
-    u min(t, tf - t) plus what remains at the end and |H|. The x axis moves with the speed
-    sqrt(w_y^2 + w_z^2), whatever the order of the turns.
-
-    Parameters
-    ----------
-    inertia
-        Principal moments, shape (3,), kg m^2.
-    torque, duration
-        N m and s.
-    final_momentum
-        Momentum about y and z that is left at the end, N m s.
-    disturbance
-        Largest angular momentum, N m s, that the environment can give in the time.
-    """
-    time = np.linspace(0.0, duration, 20001)
-    speed = np.zeros_like(time)
-    for moment, left in zip(inertia[1:], final_momentum, strict=True):
-        given = np.minimum(torque * time, torque * (duration - time) + left)
-        speed += ((given + 2.0 * disturbance) / moment) ** 2
-    speed = np.sqrt(speed)
-    # The trapezoidal rule bends kinks inwards; one step of the largest slope covers that.
-    bound = float(np.sum(np.maximum(speed[1:], speed[:-1]) * np.diff(time)))
-    return bound
-
-
-def largest_disturbance(given: Parameters, duration: float) -> float:
-    """Angular momentum, N m s, that the gravity gradient can give at most in a time, any attitude.
-
-    The torque is 3 mu / r^3 times e x J e, which is at most half the difference of the extreme
-    moments for any unit vector e, taken at perigee.
-    """
-    moments = np.linalg.eigvalsh(given.inertia)
-    perigee = given.orbit.semi_major_axis * (1.0 - given.orbit.eccentricity)
-    return float(1.5 * given.gravity.mu / perigee**3 * (moments[2] - moments[0]) * duration)
-
-
-def bound_time(given: Parameters, gradient: bool) -> float:
-    """Time, s, below which no plan turns the body by 180 deg about z from rest to rest."""
-    moments = np.diag(given.inertia)
-    low, high = 1.0, 1000.0
-    while high - low > 1e-6:
-        middle = 0.5 * (low + high)
-        disturbance = largest_disturbance(given, middle) if gradient else 0.0
-        if reach(moments, given.torque, middle, disturbance=disturbance) < np.pi:
-            low = middle
-        else:
-            high = middle
-    return low
+def not_found(case: str, found: LeastTime) -> NotConverged:
+    """The row of a least time that was not found."""
+    tried = f"collocation from {len(found.starts)} starts"
+    if found.collocated.solution.converged:
+        tried += ", then refined switching times"
+    return NotConverged(case, found.status, found.residual, tried)

@@ -1,6 +1,8 @@
 """What this study computes for every published result, in the printed units."""
 
 from collections.abc import Iterator
+from dataclasses import replace
+from math import nan
 from pathlib import Path
 
 import numpy as np
@@ -8,8 +10,10 @@ import pandas as pd
 
 from smallsat.config import Config
 from smallsat.dynamics.kepler_orbits import period
+from smallsat.dynamics.quaternions import roll_pitch_yaw
 from smallsat.evidence.observation import Observation
 from smallsat.results import read_table
+from smallsat.slew.bound import plan_names
 from smallsat.slew.environment_study import crossover_km
 from smallsat.slew.parameters import KM, Parameters
 from smallsat.slew.simulation import angles_deg, usage_pct
@@ -18,17 +22,12 @@ AXES = "xyz"
 MINUTE = 60.0
 # The printed yaw error that "comparable" is measured by, deg (Section VI.B).
 COMPARABLE_DEG = 0.9
+NO_LEAST_TIME = "not converged: no least time was found"
+NO_PLAN = "not converged: there is no plan"
 RATES = ["omega_x", "omega_y", "omega_z"]
 TURNS = {"quarter": "90-deg", "half": "180-deg"}
-ANGLES = {"quarter": 90.0, "half": 180.0}
-# The document's mesh is one segment; ours are several.
-PLANS = {
-    "90-deg": ("90 deg, one segment", "90 deg, segments"),
-    "180-deg": (
-        "180 deg, least infeasible, one segment",
-        "180 deg, least infeasible, segments",
-    ),
-}
+# Ours, and the document's mesh last: it is the one shown.
+MESHES = ("segments", "one segment")
 
 
 def observations(section: Config, given: Parameters, results: Path) -> list[Observation]:
@@ -63,13 +62,13 @@ def _orbit(given: Parameters, results: Path) -> Iterator[Observation]:
 def scaled_durations(given: Parameters, results: Path) -> pd.DataFrame:
     """Eq. 30 for the smallest and largest moment of inertia: one row a line of Table 3."""
     times = read_table(results / "minimum-times.csv").set_index("case")["duration_s"]
-    scales = np.sqrt(np.diag(given.inertia)[[0, 2]] / given.torque)
+    scales = np.sqrt(np.linalg.eigvalsh(given.inertia)[[0, 2]] / given.torque)
     rows = []
-    for case, angle in (("90-deg", np.pi / 2.0), ("180-deg", np.pi)):
+    for case, turn in TURNS.items():
         # Full torque forth and back about one axis.
-        rows.append((f"{case}-eigenaxis", 2.0 * np.sqrt(angle)))
-        name = f"benchmark, {case.replace('-', ' ')}"
-        rows.append((f"{case}-time-optimal", float(times[name])))
+        angle = np.radians(given.angle_deg(case))
+        rows.append((f"{turn}-eigenaxis", 2.0 * np.sqrt(angle)))
+        rows.append((f"{turn}-time-optimal", float(times[f"benchmark, {given.names[case]}"])))
     return pd.DataFrame(
         [
             {"case": case, "t_hat": t, "t_min": t * scales[0], "t_max": t * scales[1]}
@@ -80,8 +79,9 @@ def scaled_durations(given: Parameters, results: Path) -> pd.DataFrame:
 
 def _durations(given: Parameters, results: Path) -> Iterator[Observation]:
     for row in scaled_durations(given, results).to_dict("records"):
-        yield Observation(f"slew/table-3/t-min/{row['case']}", row["t_min"])
-        yield Observation(f"slew/table-3/t-max/{row['case']}", row["t_max"])
+        note = NO_LEAST_TIME if np.isnan(row["t_hat"]) else ""
+        yield Observation(f"slew/table-3/t-min/{row['case']}", row["t_min"], note=note)
+        yield Observation(f"slew/table-3/t-max/{row['case']}", row["t_max"], note=note)
 
 
 def _eigenaxis(given: Parameters, results: Path) -> Iterator[Observation]:
@@ -92,7 +92,7 @@ def _eigenaxis(given: Parameters, results: Path) -> Iterator[Observation]:
         _, momentum = usage_pct(flown, given)
         where, name = "slew/section-vi-a", f"{turn}-eigenaxis"
         yield Observation(f"{where}/final-yaw-angle/{name}", yaw)
-        yield Observation(f"{where}/yaw-undershoot/{name}", ANGLES[case] - yaw)
+        yield Observation(f"{where}/yaw-undershoot/{name}", short_of(yaw, target_yaw(given, case)))
         yield Observation(f"{where}/roll-angle/{name}", roll)
         yield Observation(f"{where}/pitch-angle/{name}", pitch)
         rate = float(np.degrees(flown["omega_z"].iloc[-1]))
@@ -103,43 +103,75 @@ def _eigenaxis(given: Parameters, results: Path) -> Iterator[Observation]:
         settled = flights[flights["flight"] == f"eigenaxis {case}, no time limit"]
         yield Observation(
             f"slew/section-vi-b/eigenaxis-time-for-comparable-yaw-and-rates/{turn}-no-time-limit",
-            comparable_time(settled, ANGLES[case]),
+            time := comparable_time(settled, target_yaw(given, case)),
+            note="not within the printed error when the flight ends" if np.isnan(time) else "",
         )
 
 
-def comparable_time(flown: pd.DataFrame, angle: float) -> float:
-    """Time, s, from which the yaw stays within the printed error of the 180 deg run."""
-    error = np.abs(angle - np.abs(angles_deg(flown)[:, 2]))
+def target_yaw(given: Parameters, case: str) -> float:
+    """Yaw of a turn's target, deg."""
+    return float(np.degrees(roll_pitch_yaw(tuple(given.targets[case]))[2]))
+
+
+def short_of(angle: float, target: float) -> float:
+    """How far an angle is short of a target, deg, the shorter way around."""
+    return min((target + turn - angle for turn in (0.0, -360.0, 360.0)), key=abs)
+
+
+def comparable_time(flown: pd.DataFrame, target: float) -> float:
+    """Time, s, from which the yaw stays within the printed error of the 180 deg run.
+
+    Not a number where it does not within the flight.
+    """
+    error = np.array([abs(short_of(yaw, target)) for yaw in angles_deg(flown)[:, 2]])
     late = np.flatnonzero(error > COMPARABLE_DEG)
-    return float(flown["time_s"].to_numpy()[late[-1] + 1])
+    since = late[-1] + 1 if len(late) else 0
+    return float(flown["time_s"].to_numpy()[since]) if since < len(flown) else nan
 
 
 def _torque_optimal(given: Parameters, results: Path) -> Iterator[Observation]:
     replays = read_table(results / "replays.parquet")
+    for case, turn in TURNS.items():
+        target = target_yaw(given, case)
+        for kind in MESHES:
+            plan, flown = chosen_plan(replays, "flight", given, case, kind)
+            for observed in _flown_plan(flown, given, f"{turn}-torque-optimal", target):
+                yield replace(observed, run=plan, note="" if len(flown) else NO_PLAN)
+
+
+def _flown_plan(
+    flown: pd.DataFrame, given: Parameters, name: str, target: float
+) -> Iterator[Observation]:
+    """End and peaks of a flight; not a number where there is none."""
     where = "slew/section-vi-b"
-    for turn, plans in PLANS.items():
-        name = f"{turn}-torque-optimal"
-        # The document's mesh last: it is the one shown.
-        for plan in reversed(plans):
-            flown = replays[replays["flight"] == plan]
-            roll, pitch, yaw = angles_deg(flown.tail(1))[0]
-            _, momentum = usage_pct(flown, given)
-            yield Observation(f"{where}/final-yaw-angle/{name}", yaw, plan)
-            yield Observation(f"{where}/final-roll-angle/{name}", roll, plan)
-            yield Observation(f"{where}/final-pitch-angle/{name}", pitch, plan)
-            if turn == "180-deg":
-                yield Observation(f"{where}/yaw-pointing-error/{name}", 180.0 - abs(yaw), plan)
-            rates = np.abs(np.degrees(flown[RATES].to_numpy()[-1]))
-            for i, axis in enumerate(AXES):
-                peak = float(np.abs(momentum[:, i]).max())
-                final = float(abs(momentum[-1, i]))
-                yield Observation(f"{where}/final-angular-rate/{name}/{axis}", rates[i], plan)
-                yield Observation(
-                    f"{where}/maximum-angular-momentum-usage/{name}/{axis}", peak, plan
-                )
-                yield Observation(
-                    f"{where}/final-angular-momentum-usage/{name}/{axis}", final, plan
-                )
+    angles, rates, momentum = np.full(3, nan), np.full(3, nan), np.full((1, 3), nan)
+    if len(flown):
+        angles = angles_deg(flown.tail(1))[0]
+        rates = np.abs(np.degrees(flown[RATES].to_numpy()[-1]))
+        _, momentum = usage_pct(flown, given)
+    roll, pitch, yaw = angles
+    yield Observation(f"{where}/final-yaw-angle/{name}", yaw)
+    yield Observation(f"{where}/final-roll-angle/{name}", roll)
+    yield Observation(f"{where}/final-pitch-angle/{name}", pitch)
+    if name.startswith(TURNS["half"]):
+        yield Observation(f"{where}/yaw-pointing-error/{name}", abs(short_of(yaw, target)))
+    for i, axis in enumerate(AXES):
+        peak = float(np.abs(momentum[:, i]).max())
+        final = float(abs(momentum[-1, i]))
+        yield Observation(f"{where}/final-angular-rate/{name}/{axis}", rates[i])
+        yield Observation(f"{where}/maximum-angular-momentum-usage/{name}/{axis}", peak)
+        yield Observation(f"{where}/final-angular-momentum-usage/{name}/{axis}", final)
+
+
+def chosen_plan(
+    table: pd.DataFrame, column: str, given: Parameters, case: str, kind: str
+) -> tuple[str, pd.DataFrame]:
+    """The plan of a turn on a mesh that a table has: its name and rows, of least torque first."""
+    for name in plan_names(given, case, kind):
+        rows = table[table[column] == name]
+        if len(rows):
+            break
+    return name, rows
 
 
 def _crossover(section: Config, results: Path) -> Iterator[Observation]:
@@ -147,22 +179,25 @@ def _crossover(section: Config, results: Path) -> Iterator[Observation]:
     offset = max(section["environment"]["offsets_mm"])
     yield Observation(
         "slew/section-v-c/altitude-above-which-gravity-gradient-dominates/environment-torque-study",
-        crossover_km(table, offset),
+        crossing := crossover_km(table, offset),
         run=f"centre of pressure {offset:g} mm off the centre, assumed",
+        note="drag is the larger at every altitude of this run" if np.isnan(crossing) else "",
     )
 
 
-def timings(results: Path) -> pd.DataFrame:
+def timings(given: Parameters, results: Path) -> pd.DataFrame:
     """Our seconds for the printed ones: columns id and seconds."""
-    seconds = read_table(results / "plan-seconds.csv").set_index("plan")["seconds"]
-    propagator = float(seconds["on-board propagator"])
+    seconds = read_table(results / "plan-seconds.csv")
+    propagator = float(seconds["seconds"].iloc[-1])
     rows = []
-    for turn, (plan, _) in PLANS.items():
+    for case, turn in TURNS.items():
+        _, solved = chosen_plan(seconds, "plan", given, case, MESHES[-1])
+        guidance = float(solved["seconds"].iloc[0])
         for processor in ("i7-2700k", "core2duo-t7700"):
             for quantity, value in (
                 ("propagator", propagator),
-                ("guidance", float(seconds[plan])),
-                ("total", propagator + float(seconds[plan])),
+                ("guidance", guidance),
+                ("total", propagator + guidance),
             ):
                 rows.append(
                     {

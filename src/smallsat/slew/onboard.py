@@ -8,10 +8,12 @@ from smallsat.dynamics.attitude_propagator import propagate
 from smallsat.dynamics.compiled import compiled
 from smallsat.dynamics.kepler_orbits import acceleration, fly
 from smallsat.dynamics.quaternions import error_quaternion, turn_angle
-from smallsat.slew.parameters import KM, Parameters
+from smallsat.slew.parameters import KM, START, Parameters
 
 # Table 2 prints the start of its propagation; the printed end follows from these rounded numbers.
 PRINTED_START_KM = (6744.1, -1.652e-12, 11.77, 1.88e-15, 7.707, 8.237e-19)
+# The highest zonal harmonic that the propagator knows.
+GRAVITY_ORDER = 2
 STEPS_S = (4.0, 2.0, 1.0, 0.5, 0.2)
 
 
@@ -43,10 +45,10 @@ def final_orbit_states(section: Config, given: Parameters) -> pd.DataFrame:
     steps = round(given.duration / step)
     rows = []
     for name, start in starts.items():
-        for gravity, j2 in (("two-body", 0.0), ("J2", given.gravity.j2)):
+        for gravity, j2 in (("two-body", 0.0), (f"J{GRAVITY_ORDER}", given.gravity.j2)):
             field = given.gravity._replace(j2=j2)
             found = {
-                "order 8": fly(start[:3], start[3:], field, np.array([0.0, given.duration]))[-1],
+                "order 8": fly(start[:3], start[3:], field, np.array([START, given.duration]))[-1],
                 "order 3, fixed step": third_order(start, *field, steps, given.duration / steps),
             }
             for method, state in found.items():
@@ -68,7 +70,7 @@ def transition_errors(flights: dict[str, pd.DataFrame]) -> pd.DataFrame:
         q = flight[["q_1", "q_2", "q_3", "q_4"]].to_numpy()
         rates = flight[["omega_x", "omega_y", "omega_z"]].to_numpy()
         for step in STEPS_S:
-            every = round(step / spacing)
+            every = max(1, round(step / spacing))
             found = propagate(q[0], np.ascontiguousarray(rates[::every]), step)
             last = (len(rates) - 1) // every * every
             error = turn_angle(error_quaternion(tuple(found[-1]), tuple(q[last])))

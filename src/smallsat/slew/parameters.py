@@ -6,13 +6,20 @@ import numpy as np
 
 from smallsat.config import Config
 from smallsat.dynamics.kepler_orbits import Elements, Gravity, state_of
+from smallsat.dynamics.quaternions import error_quaternion, turn_angle
 from smallsat.errors import InputError
 
 KM = 1000.0
 MILLI = 1e-3
 # Body rate at both ends of a manoeuvre, rad/s.
 REST = (0.0, 0.0, 0.0)
+# Times count from the start of the manoeuvre, s.
+START = 0.0
 UNIT = 1e-9
+# Areas are those of the body's faces to this, and turns smaller than this, rad, are none.
+SAME = 1e-9
+NO_TURN = 1e-6
+CASES = ("quarter", "half")
 
 
 @dataclass(frozen=True)
@@ -54,6 +61,28 @@ class Parameters:
     def state(self) -> tuple[np.ndarray, np.ndarray]:
         """Inertial position, m, and velocity, m/s, at the start."""
         return state_of(self.orbit, self.gravity.mu)
+
+    def turn(self, case: str) -> np.ndarray:
+        """The turn from the initial attitude to a target, quaternion, shape (4,)."""
+        return np.array(error_quaternion(tuple(self.targets[case]), tuple(self.initial)))
+
+    def angle_deg(self, case: str) -> float:
+        """Angle of a turn, deg, at most 180."""
+        return float(np.degrees(turn_angle(tuple(self.turn(case)))))
+
+    def axis(self, case: str) -> np.ndarray:
+        """Axis of a turn in the body, shape (3,); of the turn by at most 180 deg."""
+        turn = self.turn(case)
+        turn = turn if turn[3] >= 0.0 else -turn
+        return turn[:3] / np.linalg.norm(turn[:3])
+
+    @property
+    def names(self) -> dict[str, str]:
+        """What the turns are called: by their angle, and by their case where that is the same."""
+        names = {case: f"{self.angle_deg(case):g} deg" for case in CASES}
+        if len(set(names.values())) < len(names):
+            names = {case: f"{name}, {case}" for case, name in names.items()}
+        return names
 
 
 def panels(section: Config, offset: float | None = None, scale: float = 1.0) -> np.ndarray:
@@ -105,14 +134,23 @@ def parameters(section: Config) -> Parameters:
         duration=float(manoeuvre["duration_s"]),
         initial=np.array(manoeuvre["initial_quaternion"], dtype=float),
         targets={
-            case: np.array(manoeuvre[case]["target_quaternion"], dtype=float)
-            for case in ("quarter", "half")
+            case: np.array(manoeuvre[case]["target_quaternion"], dtype=float) for case in CASES
         },
     )
 
 
+def quarter_angle_deg(config: Config) -> float:
+    """Angle of the smaller of the document's two turns, deg: it follows from the quaternions."""
+    return parameters(config["slew"]).angle_deg("quarter")
+
+
+def half_angle_deg(config: Config) -> float:
+    """Angle of the larger of the document's two turns, deg: it follows from the quaternions."""
+    return parameters(config["slew"]).angle_deg("half")
+
+
 def check(section: Config) -> None:
-    """Refuse what the schema cannot: a tensor of no body, a quaternion that is none.
+    """Refuse what the schema cannot: no body, quaternion, turn or orbit, and what contradicts.
 
     Raises
     ------
@@ -144,4 +182,60 @@ def check(section: Config) -> None:
             raise InputError(
                 f"config key 'slew.manoeuvre.{name}': {value} has the length {length:g}; "
                 f"must be a unit quaternion, scalar last"
+            )
+    given = parameters(section)
+    for case in CASES:
+        if np.radians(given.angle_deg(case)) < NO_TURN:
+            raise InputError(
+                f"config key 'slew.manoeuvre.{case}.target_quaternion': "
+                f"{manoeuvre[case]['target_quaternion']} is the initial attitude; must differ from "
+                f"initial_quaternion {manoeuvre['initial_quaternion']}"
+            )
+    perigee = given.orbit.semi_major_axis * (1.0 - given.orbit.eccentricity)
+    if perigee <= given.gravity.radius:
+        raise InputError(
+            f"config key 'slew.orbit.eccentricity': {given.orbit.eccentricity:g} puts the perigee "
+            f"at {perigee / KM:g} km from the Earth's centre; must be more than earth_radius_km "
+            f"{given.gravity.radius / KM:g}"
+        )
+    _check_faces(section["spacecraft"])
+    _check_times(section)
+    factors = section["environment"]["density_factors"]
+    if 1.0 not in factors:
+        raise InputError(
+            f"config key 'slew.environment.density_factors': {factors} lacks the factor 1, which "
+            f"the curves are drawn for; add it"
+        )
+
+
+def _check_faces(craft: Config) -> None:
+    """Table 5 calls four faces alike, so that breadth and height must agree as well."""
+    size = craft["size_m"]
+    for name, first, second in (
+        ("side", "length", "breadth"),
+        ("side", "length", "height"),
+        ("end", "breadth", "height"),
+    ):
+        area = craft["panel_area_m2"][name]
+        face = size[first] * size[second]
+        if abs(area / face - 1.0) > SAME:
+            raise InputError(
+                f"config key 'slew.spacecraft.panel_area_m2.{name}': {area:g} is not {first} times "
+                f"{second} of size_m, {face:g}; set areas and sizes together"
+            )
+
+
+def _check_times(section: Config) -> None:
+    duration = section["manoeuvre"]["duration_s"]
+    shortest = 1.0 / section["resampling_hz"]
+    for key, step in (
+        ("onboard.step_s", section["onboard"]["step_s"]),
+        ("numerics.step_s", section["numerics"]["step_s"]),
+        ("resampling_hz", shortest),
+    ):
+        if step > duration:
+            value = section["resampling_hz"] if key == "resampling_hz" else step
+            raise InputError(
+                f"config key 'slew.{key}': {value:g} makes steps longer than "
+                f"slew.manoeuvre.duration_s {duration:g}; must fit into it"
             )

@@ -1,11 +1,13 @@
 """Minimum-torque plans: the document's two manoeuvres, and what a longer time allows."""
 
 from dataclasses import dataclass
+from math import nan
 
 import numpy as np
 import pandas as pd
 
 from smallsat.config import Config
+from smallsat.evidence.not_converged import NotConverged
 from smallsat.optimal_control.gauss_pseudospectral import Mesh
 from smallsat.optimal_control.held_control import HeldControl
 from smallsat.optimal_control.nonlinear_program import IpoptSolver, Solution
@@ -14,6 +16,22 @@ from smallsat.slew.guidance import Guidance, Model, Result, problem, tilts, turn
 from smallsat.slew.parameters import Parameters
 
 AXES = "xyz"
+# What is said of a plan's held control.
+HELD_SUMMARY = (
+    "held_converged",
+    "held_status",
+    "held_cost_N_m_s",
+    "attitude_miss_rad",
+    "rate_miss_rad_s",
+    "largest_torque_share",
+    *(f"held_peak_{axis}_pct" for axis in AXES),
+)
+HELD_COLUMNS = (
+    "plan",
+    "time_s",
+    *(f"q_{i}" for i in range(1, 5)),
+    *(f"{name}_{axis}" for axis in AXES for name in ("omega", "h", "u")),
+)
 # Starts of a minimum-torque solve in a sweep; the document's two manoeuvres have all.
 SWEEP_STARTS = 3
 
@@ -89,6 +107,32 @@ def best_plan(
     )
     converged = [r for r in results if r.solution.converged]
     return min(converged or results, key=lambda r: r.cost), table
+
+
+def unsolved(case: str, result: Result, tried: str) -> list[NotConverged]:
+    """The one row of a plan that did not converge; none of one that did."""
+    solution = result.solution
+    if solution.converged:
+        return []
+    return [NotConverged(case, solution.status, solution.violation, tried)]
+
+
+def held_if_converged(
+    model: Model, given: Parameters, case: str, name: str, result: Result, section: Config
+) -> tuple[HeldPlan | None, list[NotConverged]]:
+    """A plan with a held control where there is a plan to start from, and what did not converge."""
+    if not result.solution.converged:
+        return None, []
+    held = hold(model, given, case, result, section)
+    if held.solution.converged:
+        return held, []
+    row = NotConverged(
+        f"{name}, with a held control",
+        held.solution.status,
+        held.solution.violation,
+        f"{section['numerics']['held_intervals']} pieces, from the collocated plan",
+    )
+    return held, [row]
 
 
 def hold(model: Model, given: Parameters, case: str, result: Result, section: Config) -> HeldPlan:
@@ -185,6 +229,18 @@ def resampled(table: pd.DataFrame, rate_hz: float) -> np.ndarray:
     return np.column_stack([np.interp(at, times, table[f"u_{axis}"]) for axis in AXES])
 
 
+def spread(hamiltonian: np.ndarray) -> float:
+    """Range of the Hamiltonian over a plan, in shares of its mean, to two digits."""
+    return float(f"{np.ptp(hamiltonian) / abs(np.mean(hamiltonian)):.1e}")
+
+
+def joined(tables: list[pd.DataFrame], columns: tuple[str, ...]) -> pd.DataFrame:
+    """Tables below one another; of no rows, with these columns, where there is none."""
+    if not tables:
+        return pd.DataFrame(columns=list(columns), dtype=float)
+    return pd.concat(tables, ignore_index=True)
+
+
 def summary(
     model: Model,
     given: Parameters,
@@ -205,7 +261,7 @@ def summary(
         "starts_converged": int(starts["converged"].sum()),
         "cost_N_m_s": result.cost,
         "hamiltonian_mean": float(np.mean(h)),
-        "hamiltonian_spread": float(f"{np.ptp(h) / abs(np.mean(h)):.1e}"),
+        "hamiltonian_spread": spread(h),
     }
     row |= {f"peak_{a}_pct": float(p / given.momentum) for a, p in zip(AXES, peaks, strict=True)}
     if held is not None:
@@ -222,4 +278,5 @@ def summary(
             f"held_peak_{a}_pct": float(p / given.momentum)
             for a, p in zip(AXES, flown, strict=True)
         }
-    return row
+    # Where there is none a table has the columns all the same.
+    return row | {name: row.get(name, nan) for name in HELD_SUMMARY}

@@ -23,6 +23,14 @@ THINNED = 2
 LIFT = np.array([0.0, 0.0, 0.14])
 
 
+def missing(note: str) -> Drawing:
+    """The place of a figure whose case did not converge."""
+    figure, axes = subplots(figsize=(6.3, 2.7))
+    axes.set_axis_off()
+    axes.text(0.5, 0.5, note, ha="center", va="center", color="C3", transform=axes.transAxes)
+    return _frozen(figure), pd.DataFrame({"note": [note]})
+
+
 def attitude(flown: pd.DataFrame, title: str = "") -> Drawing:
     """Roll, pitch and yaw, and the body rates, over time."""
     rows = flown.iloc[::THINNED]
@@ -138,10 +146,24 @@ def environment(table: pd.DataFrame, assumptions: str) -> Drawing:
     return figure, table
 
 
-def trade_off(table: pd.DataFrame, least: float, bound: float) -> Drawing:
-    """Cost and peak momentum of feasible 180 deg plans over their time."""
+def trade_off(table: pd.DataFrame, printed: float, least: float, bound: float) -> Drawing:
+    """Cost and peak momentum of feasible plans of the larger turn over their time.
+
+    Crosses on the axis are times for which there is no plan.
+
+    Parameters
+    ----------
+    table
+        ``trade-off.csv``.
+    printed
+        The document's time, where the axis begins, s.
+    least, bound
+        Least time found, not a number where none was, and the time below which there is none, s.
+    """
     figure, (left, right) = subplots(1, 2, figsize=(6.3, 3.0))
-    good = table[table["converged"] & table["held_converged"]]
+    solved = table["converged"] & table["held_converged"]
+    good, lost = table[solved], table[~solved]
+    start = min(printed, *table["duration_s"])
     left.plot(good["duration_s"], 1e3 * good["held_cost_N_m_s"], "o-", ms=3)
     left.set(xlabel="time of the manoeuvre [s]", ylabel=r"cost $\int|u|\,dt$ [mN m s]")
     for axis in AXES:
@@ -149,17 +171,28 @@ def trade_off(table: pd.DataFrame, least: float, bound: float) -> Drawing:
     right.set(xlabel="time of the manoeuvre [s]", ylabel="peak momentum [%]")
     right.legend()
     for panel in (left, right):
-        panel.axvspan(100.0 if bound > 100.0 else bound, bound, color="0.6", alpha=0.5, lw=0)
-        panel.axvspan(bound, least, color="0.8", alpha=0.5, lw=0)
-        panel.set_xlim(left=100.0)
+        panel.axvspan(min(start, bound), bound, color="0.6", alpha=0.5, lw=0)
+        if least > bound:
+            panel.axvspan(bound, least, color="0.8", alpha=0.5, lw=0)
+        if len(lost):
+            panel.plot(
+                lost["duration_s"], np.zeros(len(lost)), "x", color="C3", clip_on=False,
+                transform=panel.get_xaxis_transform(), label="no plan",
+            )  # fmt: skip
+            panel.legend()
+        panel.set_xlim(left=start)
     left.text(0.02, 0.03, "dark: proven impossible\nlight: below the least\ntime found",
               transform=left.transAxes, fontsize=7)  # fmt: skip
     data = good[["duration_s", "held_cost_N_m_s", *[f"held_peak_{a}_pct" for a in AXES]]]
+    data = pd.concat([data, lost[["duration_s"]]]) if len(lost) else data
     return figure, data.assign(least_time_s=least, bound_s=bound)
 
 
 def degradation(table: pd.DataFrame) -> Drawing:
-    """Least time of the 180 deg turn, and cost in a tenth more, over the wheels' torque."""
+    """Least time of the larger turn, and cost in a tenth more, over the wheels' torque.
+
+    Crosses on the axis are torques for which one of them was not found.
+    """
     figure, (left, right) = subplots(1, 2, figsize=(6.3, 2.9))
     for panel, name, label in (
         (left, "least_time_s", "least time [s]"),
@@ -177,6 +210,13 @@ def degradation(table: pd.DataFrame) -> Drawing:
                 color="C1" if limited else "C0", label=word,
             )  # fmt: skip
         panel.set(xlabel="torque of the wheels [% of healthy]", ylabel=label)
+        lost = table.loc[table[name].isna(), "torque_share_pct"]
+        if len(lost):
+            panel.plot(
+                lost, np.zeros(len(lost)), "x", color="C3", clip_on=False,
+                transform=panel.get_xaxis_transform(), label="not converged",
+            )  # fmt: skip
+            panel.legend()
     left.legend()
     return figure, table
 

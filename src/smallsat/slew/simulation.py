@@ -303,11 +303,13 @@ def run(
     step: float,
     every: float = 0.1,
 ) -> pd.DataFrame:
-    """Fly from the start; rows every so many seconds, with the columns `COLUMNS`."""
-    steps = round(duration / step)
-    record = integrate(
-        start_state(given), model, command, steps, duration / steps, max(1, round(every / step))
-    )
+    """Fly from the start; rows about every so many seconds, with the columns `COLUMNS`.
+
+    The steps are such that the last row is the end.
+    """
+    between = max(1, round(every / step))
+    steps = between * max(1, round(duration / step / between))
+    record = integrate(start_state(given), model, command, steps, duration / steps, between)
     return pd.DataFrame(record, columns=list(COLUMNS))
 
 

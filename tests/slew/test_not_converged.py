@@ -1,0 +1,170 @@
+"""Times in which there is no plan: rows that say so, and nothing that rests on them."""
+
+import copy
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from smallsat.slew import claims
+from smallsat.slew.environment_study import crossover_km
+from smallsat.slew.flown import _position
+from smallsat.slew.guidance import kepler_steps
+from smallsat.slew.observations import chosen_plan, comparable_time, short_of
+from smallsat.slew.parameters import parameters
+from smallsat.slew.plans import HELD_COLUMNS, guidance_model, joined
+from smallsat.slew.turns import turn_plans
+
+
+@pytest.fixture(scope="module")
+def small(section):
+    """Few points and starts, for solves that end in a second."""
+    few = copy.deepcopy(section)
+    few["numerics"] |= {"starts": 1, "held_intervals": 20}
+    for case in ("quarter", "half"):
+        few["manoeuvre"][case] |= {"nodes": 8, "segments": 2, "segment_nodes": 4}
+    return few
+
+
+def planned(section, case, duration):
+    """The plans of a turn on both meshes, in a time of its own."""
+    timed = copy.deepcopy(section)
+    timed["manoeuvre"]["duration_s"] = duration
+    given = parameters(timed)
+    return list(turn_plans(guidance_model(given), given, case, timed))
+
+
+def test_a_quarter_turn_in_a_fraction_of_its_time_is_a_row(small):
+    """40 s of the 85 s it needs: listed with status and residual, and not called optimal."""
+    for turn in planned(small, "quarter", 40.0):
+        first = turn.missing[0]
+        assert first.case.startswith("90 deg, ")
+        assert "no plan can exist" in first.status and "nfeasible" in first.status
+        assert first.residual > 1e-3
+        assert turn.held is None and turn.starts is None
+        assert "least infeasible" in turn.row["plan"]
+
+
+def test_a_half_turn_that_cannot_be_is_a_result(small):
+    """The document's own case: in the table of what is infeasible, and not among the failures."""
+    for turn in planned(small, "half", 100.0):
+        assert not turn.missing and not turn.infeasible["hard_converged"]
+        assert turn.infeasible["miss"] > 0.01
+
+
+def test_a_half_turn_with_time_enough_is_of_least_torque(small):
+    """In 150 s it is planned like the other one, and held, and flown to its target."""
+    one, several = planned(small, "half", 150.0)
+    assert one.infeasible["hard_converged"] and several.infeasible["hard_converged"]
+    assert several.row["plan"] == "180 deg, segments"
+    assert several.row["held_converged"] and several.row["attitude_miss_rad"] < 1e-3
+    assert not one.missing and not several.missing
+
+
+def test_no_plan_at_all_leaves_tables_with_their_columns():
+    """What draws and judges finds no rows, not no table."""
+    assert joined([], HELD_COLUMNS).columns.tolist() == list(HELD_COLUMNS)
+    assert len(joined([], HELD_COLUMNS)) == 0
+
+
+def test_claims_are_undecided_or_right_about_another_time(section, tmp_path):
+    """With a plan the document's guess fails; between the bound and a plan nobody knows."""
+    times = pd.DataFrame(
+        {
+            "case": ["180 deg, wheels and gravity gradient"],
+            "duration_s": [105.39],
+            "converged": [True],
+        }
+    )
+    times.to_csv(tmp_path / "minimum-times.csv", index=False)
+    bound = pd.DataFrame({"model": ["wheels, gravity gradient"], "bound_s": [102.5]})
+    bound.to_csv(tmp_path / "bound.csv", index=False)
+    outcomes = {}
+    for duration, solved in ((100.0, False), (104.0, False), (130.0, True)):
+        answer = {"mesh": ["segments"], "hard_status": ["status"], "hard_converged": [solved]}
+        pd.DataFrame(answer | {"miss": [0.1]}).to_csv(tmp_path / "infeasible.csv", index=False)
+        config = {"slew": copy.deepcopy(section)}
+        config["slew"]["manoeuvre"]["duration_s"] = duration
+        outcomes[duration] = (
+            claims.not_in_the_given_time(config, tmp_path).outcome,
+            claims.valid_trajectory_at_limits(config, tmp_path).outcome,
+        )
+    assert outcomes == {
+        100.0: ("holds", "fails"),
+        104.0: ("undecided", "undecided"),
+        130.0: ("fails", "holds"),
+    }
+
+
+def test_a_least_time_that_was_not_found_decides_nothing(section, tmp_path):
+    """A LookupError, which the judge calls undecided."""
+    times = {"case": ["180 deg, wheels"], "duration_s": [np.nan], "converged": [False]}
+    pd.DataFrame(times).to_csv(tmp_path / "minimum-times.csv", index=False)
+    with pytest.raises(LookupError):
+        claims.eigenaxis_is_not_fastest({"slew": section}, tmp_path)
+
+
+def test_claims_about_yaw_need_a_turn_about_z(section, tmp_path):
+    """For another axis the printed words mean nothing: not judged."""
+    config = {"slew": copy.deepcopy(section)}
+    config["slew"]["manoeuvre"]["quarter"]["target_quaternion"] = [0.6, 0.0, 0.0, 0.8]
+    for predicate in (claims.better_than_eigenaxis, claims.open_loop_follows):
+        with pytest.raises(LookupError, match="not about"):
+            predicate(config, tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("angle", "target", "short"),
+    [(80.0, 90.0, 10.0), (-165.0, 180.0, -15.0), (170.0, -170.0, 20.0)],
+)
+def test_what_is_short_of_a_target_goes_the_shorter_way(angle, target, short):
+    """Across half a turn, either way."""
+    assert short_of(angle, target) == short
+
+
+def test_a_flight_that_never_settles_has_no_time(given):
+    """Not a number, instead of a place beyond the table; at rest at the target it is the start."""
+    turn = np.radians(45.0)
+    rows = {"time_s": [0.0, 1.0], "q_1": 0.0, "q_2": 0.0, "q_3": np.sin(turn), "q_4": np.cos(turn)}
+    flown = pd.DataFrame(rows)
+    assert np.isnan(comparable_time(flown, 45.0))
+    assert comparable_time(flown, 90.0) == 0.0
+
+
+def test_the_least_infeasible_plan_stands_in_where_there_is_no_other(given):
+    """The plan of least torque is shown if there is one."""
+    names = ["180 deg, least infeasible, segments", "180 deg, segments"]
+    both = pd.DataFrame({"plan": names})
+    assert chosen_plan(both, "plan", given, "half", "segments")[0] == names[1]
+    assert chosen_plan(both[:1], "plan", given, "half", "segments")[0] == names[0]
+    assert not len(chosen_plan(both[:0], "plan", given, "half", "segments")[1])
+
+
+def test_drag_that_dominates_everywhere_has_no_crossover():
+    """Not the highest altitude studied; and altitudes may stand in any order."""
+    table = pd.DataFrame(
+        {
+            "altitude_km": [500.0, 300.0],
+            "offset_mm": 1.0,
+            "density_factor": 1.0,
+            "gravity_gradient_N_m": [2.0, 1.0],
+            "drag_N_m": [1.0, 2.0],
+        }
+    )
+    assert crossover_km(table, 1.0) == pytest.approx(400.0)
+    assert np.isnan(crossover_km(table.assign(drag_N_m=3.0), 1.0))
+
+
+def test_an_eccentric_orbit_is_followed_as_well_as_a_round_one(section):
+    """Kepler's equation of the guidance and of the independent flight agree to 1e-9."""
+    given = parameters(section)
+    orbit = given.orbit._replace(eccentricity=0.6)
+    mean = 0.7
+    anomaly = mean
+    for _ in range(kepler_steps(0.6)):
+        anomaly = mean + 0.6 * np.sin(anomaly)
+    assert anomaly - 0.6 * np.sin(anomaly) == pytest.approx(mean, abs=1e-12)
+    time = mean * np.sqrt(orbit.semi_major_axis**3 / given.gravity.mu)
+    radius = np.linalg.norm(_position(orbit, given.gravity.mu, time))
+    expected = orbit.semi_major_axis * (1.0 - 0.6 * np.cos(anomaly))
+    assert radius == pytest.approx(expected, rel=1e-9)
