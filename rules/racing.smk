@@ -1,7 +1,10 @@
 # Racing: CubeSats through rings, as published and as it should have been run.
+from smallsat.racing.parameters import course_files
 
 RACING = "data/results/racing"
 RACING_SECTION = config["racing"]
+# Courses of the user's own, read by every command with the parameters.
+RACING_COURSE_FILES = course_files(config)
 RACING_SCENARIOS = ["scenario-1", "scenario-2"]
 RACING_SHARDS = 2
 RACING_PARTS = ["races.csv", "rings.csv", "segments.csv", "trajectories.parquet", "seconds.csv"]
@@ -54,7 +57,7 @@ RACING_MERGED = [
     for name in ("races.csv", "rings.csv", "random-courses.csv", "observations.csv")
 ]
 
-STUDY_RESULTS["racing"] = [*RACING_MERGED, *RACING_TABLES]
+STUDY_RESULTS["racing"] = [*RACING_MERGED, *RACING_TABLES, *RACING_COURSE_FILES]
 
 # Figures of each notebook run: few, so that one figure alone is made in seconds.
 RACING_COURSES = {"scenario-1": ["fig-01", "fig-02"], "scenario-2": ["fig-07", "fig-08"]}
@@ -94,6 +97,7 @@ for name, (command, arguments, files) in RACING_RUNS.items():
             f"racing_{name.replace('-', '_')}"
         input:
             sources=sources("smallsat.racing.__main__"),
+            courses=RACING_COURSE_FILES,
         output:
             [f"{RACING}/{file}" for file in files],
         log:
@@ -115,6 +119,7 @@ for name, (command, arguments, files) in RACING_RUNS.items():
 rule racing_observations:
     input:
         sources=sources("smallsat.racing.__main__"),
+        courses=RACING_COURSE_FILES,
         tables=RACING_TABLES,
         seconds=[f"{RACING}/{kind}-scenario-2-seconds.csv" for kind in ("as-published", "optima")],
     output:

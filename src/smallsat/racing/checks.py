@@ -8,7 +8,7 @@ import pandas as pd
 from smallsat.config import Config
 from smallsat.dynamics.clohessy_wiltshire import costate_transition, rate_matrix
 from smallsat.racing.course import Course
-from smallsat.racing.course_program import LENGTH, Arcs, Leg, Plan
+from smallsat.racing.course_program import Arcs, Leg, Plan, length_unit
 from smallsat.racing.cubesat import CubeSat
 from smallsat.racing.flight import fly_plan, residual
 from smallsat.racing.parameters import Parameters
@@ -138,8 +138,9 @@ def dynamic_programming(given: Parameters, section: Config, scenario: str) -> pd
     """
     numbers, race = section["dynamic_programming"], given.races[scenario]
     cubesat = next(c for c in race.cubesats if c.name == numbers["cubesat"])
-    unit = float(np.sqrt(LENGTH * cubesat.thrust))
     course = race.course
+    length = length_unit(np.vstack([cubesat.position, course.centres, course.end]))
+    unit = float(np.sqrt(length * cubesat.thrust))
     grid = unit * np.linspace(numbers["least_speed"], numbers["largest_speed"], numbers["speeds"])
     choices = [grid] * course.rings
     known: dict[tuple[int, float, float], float] = {}

@@ -3,7 +3,8 @@
 The control is held over equal pieces of a segment, and a piece is flown in closed form, so that the
 program's trajectory is exact and any integrator can fly it anew. A ring is crossed at its centre
 along its normal by construction: the state there is the centre, and the normal times a speed, which
-is a variable. Units are scaled: lengths by 100 m, times by sqrt(100 m / thrust).
+is a variable. Units are scaled: lengths by the power of ten below the longest way from ring to
+ring, 100 m on the document's courses, times by sqrt(length / thrust).
 """
 
 from dataclasses import dataclass
@@ -17,7 +18,6 @@ from smallsat.dynamics.clohessy_wiltshire import held_input_rows, transition, tr
 from smallsat.optimal_control.nonlinear_program import IpoptSolver, NonlinearProgram, Solution
 from smallsat.racing.cubesat import CubeSat
 
-LENGTH = 100.0  # m
 # Lowest ring speed, scaled: the direction of a velocity of zero is undefined.
 LEAST_SPEED = 1e-3
 # Segments last between these, in units of the time of free acceleration over their length.
@@ -25,6 +25,13 @@ SHORTEST, LONGEST = 1e-4, 20.0
 # Squared norm of a scaled control: of a ball, and of a box, where it is never reached.
 BALL, BOX = 1.0, 4.0
 GUESS_THRUST = 0.9
+
+
+def length_unit(places: np.ndarray) -> float:
+    """Power of ten below the largest distance between neighbours of places (k, 3), m."""
+    gaps = np.linalg.norm(np.diff(places, axis=0), axis=1)
+    return float(10.0 ** np.floor(np.log10(gaps.max())))
+
 
 Finish = Literal["ring", "state", "rest anywhere"]
 
@@ -158,7 +165,8 @@ class CourseProgram:
         solver: IpoptSolver | None = None,
     ) -> Plan:
         thrust = float(limits.max())
-        unit = _Units(thrust, mean_motion)
+        places = np.vstack([leg.position, leg.centres, leg.end_position])[: self.segments + 1]
+        unit = _Units(thrust, mean_motion, length_unit(places))
         scaled = unit.leg(leg)
         parameters = np.concatenate(
             [
@@ -345,23 +353,24 @@ def _flow(intervals: int) -> ca.Function:
 
 
 class _Units:
-    """Scaling by 100 m and the thrust."""
+    """Scaling by a length and the thrust."""
 
-    def __init__(self, thrust: float, mean_motion: float):
-        self.time = float(np.sqrt(LENGTH / thrust))
+    def __init__(self, thrust: float, mean_motion: float, length: float):
+        self.length = length
+        self.time = float(np.sqrt(length / thrust))
         self.mean_motion = mean_motion * self.time
-        self.states = np.repeat([LENGTH, LENGTH / self.time], 3)
+        self.states = np.repeat([length, length / self.time], 3)
 
     def state(self, state: np.ndarray) -> np.ndarray:
         return state / self.states
 
     def leg(self, leg: Leg) -> Leg:
-        speed = LENGTH / self.time
+        speed = self.length / self.time
         return Leg(
-            leg.position / LENGTH,
+            leg.position / self.length,
             leg.velocity / speed,
-            leg.centres / LENGTH,
+            leg.centres / self.length,
             leg.normals,
-            leg.end_position / LENGTH,
+            leg.end_position / self.length,
             leg.end_velocity / speed,
         )

@@ -11,7 +11,7 @@ import numpy as np
 from scipy.optimize import root
 
 from smallsat.dynamics.clohessy_wiltshire import rate_matrix
-from smallsat.racing.course_program import LENGTH
+from smallsat.racing.course_program import length_unit
 from smallsat.racing.shooting import DIRECTED, costate_matrix, end_of_segment
 
 TOLERANCE = 1e-9
@@ -62,11 +62,12 @@ def solve(
     panels
         Of the quadrature.
     """
-    time = float(np.sqrt(LENGTH / thrust))
-    units = np.repeat([LENGTH, LENGTH / time], 3)
+    length = length_unit(np.array([state[:3], goal.position]))
+    time = float(np.sqrt(length / thrust))
+    units = np.repeat([length, length / time], 3)
     n = mean_motion * time
     a, m = rate_matrix(n), costate_matrix(n)
-    start, target = state / units, goal.position / LENGTH
+    start, target = state / units, goal.position / length
     level = np.array([-goal.normal[1], goal.normal[0], 0.0])
     if np.linalg.norm(level) < 1e-6:
         level = np.array([1.0, 0.0, 0.0])

@@ -8,10 +8,10 @@ import numpy as np
 from smallsat.config import Config
 from smallsat.errors import InputError
 from smallsat.racing.as_published import Settings
-from smallsat.racing.course import Course, Ranges, check_course, course_of, generate
+from smallsat.racing.course import COINCIDENT, Course, Ranges, check_course, generate
+from smallsat.racing.course_file import read_course_file
 from smallsat.racing.cubesat import CubeSat, cubesat
 from smallsat.racing.matlab_random import MatlabStream
-from smallsat.results import read_table
 
 MINUTE = 60.0
 SCENARIOS = ("scenario-1", "scenario-2")
@@ -108,10 +108,16 @@ def _race(section: Config, scenario: str, ranges: Ranges) -> Race:
     given = section["scenarios"][scenario]
     name = f"config key 'racing.scenarios.{scenario}'"
     if given["course_file"]:
-        course = course_of(_course_table(given["course_file"]), given["course_file"])
+        course = read_course_file(Path(given["course_file"]))
     else:
         course = generate(MatlabStream(given["seed"]), ranges)
         check_course(course, name)
+    for key, values in given["cubesats"].items():
+        if np.linalg.norm(values["position_m"] - course.centres[0]) < COINCIDENT:
+            raise InputError(
+                f"{name[:-1]}.cubesats.{key}.position_m': {values['position_m']} is the centre of "
+                f"ring 1; a CubeSat starts elsewhere, move it"
+            )
     return Race(
         course,
         tuple(
@@ -121,13 +127,10 @@ def _race(section: Config, scenario: str, ranges: Ranges) -> Race:
     )
 
 
-def _course_table(path: str):
-    table = read_table(Path(path))
-    needed = ["ring", "x_m", "y_m", "z_m", "nx", "ny", "nz", "semi_major_m", "semi_minor_m"]
-    missing = [column for column in needed if column not in table]
-    if missing:
-        raise InputError(f"{path}: column '{missing[0]}' is missing; needed: {', '.join(needed)}")
-    return table
+def course_files(config: Config) -> list[str]:
+    """Course files that the parameters are read from."""
+    races = config["racing"]["scenarios"].values()
+    return sorted({race["course_file"] for race in races} - {""})
 
 
 def check(section: Config) -> None:
@@ -152,11 +155,12 @@ def check(section: Config) -> None:
         )
     for scenario in SCENARIOS:
         given = section["scenarios"][scenario]
-        if given["course_file"] and not Path(given["course_file"]).exists():
+        if given["course_file"] and not Path(given["course_file"]).is_file():
+            what = "is no file" if Path(given["course_file"]).exists() else "does not exist"
             raise InputError(
                 f"config key 'racing.scenarios.{scenario}.course_file': "
-                f"'{given['course_file']}' does not exist; give a CSV file's path from the folder "
-                f'of the run, or "" for the course of the seed'
+                f"'{given['course_file']}' {what}; give a CSV file's path from the folder "
+                f'in which snakemake is called, or "" for the course of the seed'
             )
 
 

@@ -11,7 +11,7 @@ import pandas as pd
 from smallsat.config import Config
 from smallsat.racing import as_published, indirect
 from smallsat.racing.course import Course
-from smallsat.racing.course_program import LEAST_SPEED, LENGTH, CourseProgram, Leg, Plan
+from smallsat.racing.course_program import LEAST_SPEED, CourseProgram, Leg, Plan, length_unit
 from smallsat.racing.cubesat import CubeSat
 from smallsat.racing.flight import (
     fly_plan,
@@ -200,9 +200,11 @@ def _add_extremals(
         final = k == course.rings
         # Where the direct solution crosses at the least speed allowed, the speed is not free.
         speed = float(np.linalg.norm(plan.final[3:]))
-        slowest = SLOW * LEAST_SPEED * np.sqrt(LENGTH * cubesat.thrust)
+        position = course.end if final else course.centres[k]
+        length = length_unit(np.array([plan.starts[0, :3], position]))
+        slowest = SLOW * LEAST_SPEED * np.sqrt(length * cubesat.thrust)
         goal = indirect.Goal(
-            course.end if final else course.centres[k],
+            position,
             course.normals[min(k, course.rings - 1)],
             plan.final[3:] if speed < slowest else None,
         )
