@@ -24,23 +24,30 @@ RACING_RUNS = {
         f"{command}-{scenario}": (
             command,
             f"--scenario {scenario}",
-            [f"{command}-{scenario}-{part}" for part in RACING_PARTS],
+            [f"{command}-{scenario}-{part}" for part in [*RACING_PARTS, *parts]],
         )
-        for command in ("as-published", "optima")
+        for command, parts in (("as-published", []), ("optima", ["not-converged.csv"]))
         for scenario in RACING_SCENARIOS
     },
     "variants": ("variants", "", ["variants.csv"]),
     "checks": (
         "checks",
         "",
-        ["meshes.csv", "other-starts.csv", "thrust-sweep.csv", "random-positions.csv"],
+        [
+            *["meshes.csv", "other-starts.csv", "thrust-sweep.csv", "random-positions.csv"],
+            "checks-not-converged.csv",
+        ],
     ),
-    "dynamic-programming": ("dynamic-programming", "", ["dynamic-programming.csv"]),
+    "dynamic-programming": (
+        "dynamic-programming",
+        "",
+        ["dynamic-programming.csv", "dynamic-programming-not-converged.csv"],
+    ),
     **{
         f"random-courses-{shard}": (
             "random",
             f"--shard {shard} --shards {RACING_SHARDS}",
-            [f"random-courses-{shard}.csv", f"random-courses-{shard}-seconds.csv"],
+            [f"random-courses-{shard}{part}.csv" for part in ("", "-seconds", "-not-converged")],
         )
         for shard in range(RACING_SHARDS)
     },
@@ -67,6 +74,19 @@ RACING_PATHS = {
 }
 # The first segment's figure and the number of segments that the document draws.
 RACING_SEGMENTS = {"scenario-1": (13, 23), "scenario-2": (36, 26)}
+# A course with fewer rings has fewer segments to draw.
+RACING_LAST = {
+    name: race.course.rings + 1 for name, race in racing_parameters(RACING_SECTION).races.items()
+}
+LEFT_OUT += [
+    f"figures/racing/fig-{start + segment:02d}.svg"
+    for scenario, (start, count) in RACING_SEGMENTS.items()
+    for segment in range(RACING_LAST[scenario], count)
+]
+RACING_SEGMENTS = {
+    scenario: (start, min(count, RACING_LAST[scenario]))
+    for scenario, (start, count) in RACING_SEGMENTS.items()
+}
 RACING_GROUP = 7
 RACING_GROUPS = {
     f"{scenario}-segments-{first}": (

@@ -129,6 +129,7 @@ rule rendezvous_observations:
     input:
         sources=sources("smallsat.rendezvous.__main__"),
         phases=f"{RENDEZVOUS}/phases.csv",
+        flights=f"{RENDEZVOUS}/flights.parquet",
         studies=STUDIES_JUDGED,
     output:
         f"{RENDEZVOUS}/observations.csv",

@@ -8,7 +8,7 @@ import pandas as pd
 
 from smallsat.config import Config
 from smallsat.errors import report_input_errors
-from smallsat.evidence.not_converged import not_converged_table
+from smallsat.evidence.not_converged import NotConverged, not_converged_table
 from smallsat.evidence.observation import observations_table
 from smallsat.racing import checks, recovery
 from smallsat.racing.course import course_table
@@ -16,12 +16,14 @@ from smallsat.racing.observations import observations, timings
 from smallsat.racing.parameters import SCENARIOS, Parameters, parameters
 from smallsat.racing.races import Tables, fly_as_published, fly_optima, variants
 from smallsat.racing.random_courses import fly_random
-from smallsat.results import write_table
+from smallsat.results import read_table, write_table
 
 # Years whose days are tried as seeds of the shuffled race: the listing is of 2025.
 YEARS = (2021, 2026)
 # The CubeSat whose variants are flown: all are alike in this.
 VARIED = ("Meeny",)
+# How the tables end that list the cases without a solution of a command.
+NOT_CONVERGED = "-not-converged.csv"
 
 
 def main() -> None:
@@ -80,6 +82,11 @@ def _optima(
 ) -> None:
     flown = fly_optima(given, section, arguments.scenario)
     _write(flown, folder, f"optima-{arguments.scenario}")
+    _write_missing(flown.not_converged, folder, f"optima-{arguments.scenario}")
+
+
+def _write_missing(cases: list[NotConverged], folder: Path, stem: str) -> None:
+    write_table(not_converged_table(cases), folder / f"{stem}{NOT_CONVERGED}")
 
 
 def _variants(section: Config, given: Parameters, folder: Path, _: argparse.Namespace) -> None:
@@ -87,29 +94,37 @@ def _variants(section: Config, given: Parameters, folder: Path, _: argparse.Name
 
 
 def _checks(section: Config, given: Parameters, folder: Path, _: argparse.Namespace) -> None:
-    meshes = [checks.mesh_refinement(given, section, name) for name in SCENARIOS]
-    write_table(pd.concat(meshes, ignore_index=True), folder / "meshes.csv")
-    starts = [checks.other_starts(given, section, name) for name in SCENARIOS]
-    write_table(pd.concat(starts, ignore_index=True), folder / "other-starts.csv")
-    write_table(checks.thrust_sweep(given, section, SCENARIOS[0]), folder / "thrust-sweep.csv")
-    places = checks.start_positions(given, section, SCENARIOS[1])
-    write_table(places, folder / "random-positions.csv")
+    parts: dict[str, list[checks.Checked]] = {
+        "meshes": [checks.mesh_refinement(given, section, name) for name in SCENARIOS],
+        "other-starts": [(checks.other_starts(given, section, name), []) for name in SCENARIOS],
+        "thrust-sweep": [checks.thrust_sweep(given, section, SCENARIOS[0])],
+        "random-positions": [checks.start_positions(given, section, SCENARIOS[1])],
+    }
+    for name, found in parts.items():
+        write_table(
+            pd.concat([part[0] for part in found], ignore_index=True), folder / f"{name}.csv"
+        )
+    missing = [case for found in parts.values() for part in found for case in part[1]]
+    _write_missing(missing, folder, "checks")
 
 
 def _dynamic_programming(
     section: Config, given: Parameters, folder: Path, _: argparse.Namespace
 ) -> None:
-    table = checks.dynamic_programming(given, section, SCENARIOS[0])
+    table, missing = checks.dynamic_programming(given, section, SCENARIOS[0])
     write_table(table, folder / "dynamic-programming.csv")
+    _write_missing(missing, folder, "dynamic-programming")
 
 
 def _random(
     section: Config, given: Parameters, folder: Path, arguments: argparse.Namespace
 ) -> None:
     rings = given.races[SCENARIOS[1]].course.rings
-    found, seconds = fly_random(given, section, arguments.shard, arguments.shards, rings)
-    write_table(found, folder / f"random-courses-{arguments.shard}.csv")
-    write_table(seconds, folder / f"random-courses-{arguments.shard}-seconds.csv")
+    found, seconds, missing = fly_random(given, section, arguments.shard, arguments.shards, rings)
+    stem = f"random-courses-{arguments.shard}"
+    write_table(found, folder / f"{stem}.csv")
+    write_table(seconds, folder / f"{stem}-seconds.csv")
+    _write_missing(missing, folder, stem)
 
 
 def _observe(section: Config, given: Parameters, folder: Path, _: argparse.Namespace) -> None:
@@ -126,14 +141,14 @@ def _observe(section: Config, given: Parameters, folder: Path, _: argparse.Names
         for kind in ("as-published", "optima")
     ]
     write_table(pd.concat(rings, ignore_index=True), folder / "rings.csv")
-    shards = sorted(
-        path for path in folder.glob("random-courses-*.csv") if "seconds" not in path.name
-    )
+    shards = sorted(folder.glob("random-courses-[0-9].csv"))
     courses = pd.concat([pd.read_csv(path) for path in shards], ignore_index=True)
     courses = courses.sort_values(["number", "rule"], ignore_index=True)
     write_table(courses, folder / "random-courses.csv")
     write_table(observations_table(observations(table)), folder / "observations.csv")
-    write_table(not_converged_table([]), folder / "not-converged.csv")
+    missing = [read_table(path, ("tried",)) for path in sorted(folder.glob(f"*{NOT_CONVERGED}"))]
+    found = [part for part in missing if len(part)] or [not_converged_table([])]
+    write_table(pd.concat(found, ignore_index=True), folder / "not-converged.csv")
     write_table(timings(folder), folder / "timings.csv")
 
 

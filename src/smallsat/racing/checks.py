@@ -1,4 +1,7 @@
-"""Is the optimum one? Finer meshes, other starts, dynamic programming, Pontryagin's conditions."""
+"""Is the optimum one? Finer meshes, other starts, dynamic programming, Pontryagin's conditions.
+
+Each check gives its table, and the cases in it without a solution, whose numbers are missing.
+"""
 
 from typing import Any
 
@@ -7,6 +10,8 @@ import pandas as pd
 
 from smallsat.config import Config
 from smallsat.dynamics.clohessy_wiltshire import costate_transition, rate_matrix
+from smallsat.evidence.not_converged import NotConverged
+from smallsat.racing import attempts
 from smallsat.racing.course import Course
 from smallsat.racing.course_program import Arcs, Leg, Plan, length_unit
 from smallsat.racing.cubesat import CubeSat
@@ -17,36 +22,50 @@ from smallsat.racing.races import ANYWHERE, REST, WHOLE, program, whole_leg
 SATURATED = 1.0 - 1e-3
 # Random guesses: ring speeds and durations between these, scaled.
 SPEEDS, TIMES = (0.3, 1.2), (1.6, 3.5)
+# How often the range of speeds is widened, and how slow its least speed may get.
+WIDENED, LEAST_SHARE = 6, 1e-3
 # A primer below this share of its largest value has no direction to speak of.
 SMALL_PRIMER = 0.05
+# Columns of `mesh_refinement` that are there even if nothing converged.
+MESH = ["residual", "hamiltonian_error", "hamiltonian_median_error"]
+MESH += ["largest_ring_multiplier_s_m", "full_thrust_share", "primer_angle_median_deg"]
+MESH += ["primer_angle_largest_deg", "sign_share"]
 
 
-def mesh_refinement(given: Parameters, section: Config, scenario: str) -> pd.DataFrame:
+Checked = tuple[pd.DataFrame, list[NotConverged]]
+
+
+def mesh_refinement(given: Parameters, section: Config, scenario: str) -> Checked:
     """Whole-course optimum of every CubeSat on meshes that each contain the last one's plans."""
     numerics, race = section["optimum"], given.races[scenario]
-    rows = []
+    rows, missing = [], []
     for cubesat in race.cubesats:
-        leg, plan = whole_leg(race.course, cubesat), None
+        leg, coarser = whole_leg(race.course, cubesat), None
         for intervals in (numerics["intervals"], *numerics["finer_intervals"]):
             solver = program(race.course.rings, "state", intervals)
-            plan = (
-                solver.refine(leg, cubesat, given.mean_motion, plan)
-                if plan
-                else solver.solve(leg, cubesat, given.mean_motion)
-            )
-            flown = fly_plan(plan, given.mean_motion)
-            rows.append(
-                {
-                    "scenario": scenario,
-                    "cubesat": cubesat.name,
-                    "intervals": intervals,
+            plan = solver.refine(leg, cubesat, given.mean_motion, coarser) if coarser else None
+            if plan is None or not plan.converged:
+                plan = attempts.solve(solver, leg, cubesat, given.mean_motion)
+            row = {"scenario": scenario, "cubesat": cubesat.name, "intervals": intervals}
+            if plan.converged:
+                coarser = plan
+                flown = fly_plan(plan, given.mean_motion)
+                row |= {
                     "time_s": plan.time,
-                    "converged": plan.converged,
+                    "converged": True,
                     "residual": residual(plan, flown, cubesat, race.course),
-                }
-                | primer_check(plan, cubesat, given.mean_motion)
-            )
-    return pd.DataFrame(rows)
+                } | primer_check(plan, cubesat, given.mean_motion)
+            else:
+                case = f"{scenario}, {cubesat.name}, whole course, {intervals} pieces a segment"
+                missing.append(attempts.not_converged(case, plan, cubesat, given.mean_motion))
+                row |= {"time_s": np.nan, "converged": False}
+            rows.append(row)
+    return pd.DataFrame(rows, columns=_columns(rows, MESH)), missing
+
+
+def _columns(rows: list[dict[str, Any]], least: list[str]) -> list[str]:
+    """The columns that rows have, in their order, and those that none of them has."""
+    return list(dict.fromkeys([*(name for row in rows for name in row), *least]))
 
 
 def primer_check(plan: Plan, cubesat: CubeSat, mean_motion: float) -> dict[str, float]:
@@ -121,7 +140,7 @@ def other_starts(given: Parameters, section: Config, scenario: str) -> pd.DataFr
                     "scenario": scenario,
                     "cubesat": cubesat.name,
                     "start": start,
-                    "time_s": plan.time,
+                    "time_s": plan.time if plan.converged else np.nan,
                     "converged": plan.converged,
                     "status": plan.solution.status,
                 }
@@ -129,12 +148,13 @@ def other_starts(given: Parameters, section: Config, scenario: str) -> pd.DataFr
     return pd.DataFrame(rows)
 
 
-def dynamic_programming(given: Parameters, section: Config, scenario: str) -> pd.DataFrame:
+def dynamic_programming(given: Parameters, section: Config, scenario: str) -> Checked:
     """Least time over the ring speeds, the only free part of a state at a ring.
 
     A table of least times from speed to speed for every segment, first on a grid of speeds, then on
     ever finer ones around the best path. Each entry is a solve of one segment with both ends fixed,
-    on the mesh of the whole-course program, which it must agree with.
+    on the mesh of the whole-course program, which it must agree with. The grid's range goes with
+    the thrust and the size of the course; where the best path touches its end, it is widened.
     """
     numbers, race = section["dynamic_programming"], given.races[scenario]
     cubesat = next(c for c in race.cubesats if c.name == numbers["cubesat"])
@@ -142,12 +162,25 @@ def dynamic_programming(given: Parameters, section: Config, scenario: str) -> pd
     length = length_unit(np.vstack([cubesat.position, course.centres, course.end]))
     unit = float(np.sqrt(length * cubesat.thrust))
     grid = unit * np.linspace(numbers["least_speed"], numbers["largest_speed"], numbers["speeds"])
-    choices = [grid] * course.rings
-    known: dict[tuple[int, float, float], float] = {}
     spacing = float(grid[1] - grid[0])
+    known: dict[tuple[int, float, float], float] = {}
+    total, path = _best_path(given, section, course, cubesat, [grid] * course.rings, known)
+    for _ in range(WIDENED):
+        touched = [end for end in (min, max) if end(path) == end(grid)]
+        if not touched or not np.isfinite(total):
+            break
+        if min in touched and grid[0] > LEAST_SHARE * grid[-1]:
+            grid = np.r_[0.5 * grid[0], grid]
+        if max in touched:
+            grid = np.r_[grid, grid[-1] + spacing * np.arange(1, numbers["speeds"] // 2 + 1)]
+        total, path = _best_path(given, section, course, cubesat, [grid] * course.rings, known)
+    least = numbers["least_speed"] * unit / 100.0
     rows: list[dict[str, Any]] = []
     for level in range(numbers["refinements"] + 1):
-        total, path = _best_path(given, section, course, cubesat, choices, known)
+        if level:
+            spacing /= 2.0
+            choices = [np.maximum([s - spacing, s, s + spacing], least) for s in path]
+            total, path = _best_path(given, section, course, cubesat, choices, known)
         rows.append(
             {
                 "scenario": scenario,
@@ -155,13 +188,21 @@ def dynamic_programming(given: Parameters, section: Config, scenario: str) -> pd
                 "level": level,
                 "spacing_m_s": spacing,
                 "segments_solved": len(known),
-                "time_s": total,
+                "time_s": total if np.isfinite(total) else np.nan,
             }
         )
-        spacing /= 2.0
-        least = numbers["least_speed"] * unit / 100.0
-        choices = [np.maximum([s - spacing, s, s + spacing], least) for s in path]
-    return pd.DataFrame(rows)
+        if not np.isfinite(total):
+            break
+    missing = []
+    if not np.isfinite(total):
+        missing.append(
+            NotConverged(
+                f"{scenario}, {cubesat.name}, dynamic programming",
+                "no path of solved segments",
+                tried=f"{len(grid)} speeds from {grid[0]:.3g} to {grid[-1]:.3g} m/s at each ring",
+            )
+        )
+    return pd.DataFrame(rows), missing
 
 
 def _best_path(
@@ -222,45 +263,56 @@ def _segment_time(
     return known[key]
 
 
-def thrust_sweep(given: Parameters, section: Config, scenario: str) -> pd.DataFrame:
+def thrust_sweep(given: Parameters, section: Config, scenario: str) -> Checked:
     """The optimum over thrust, from the middle of the start: what it does to time and accuracy."""
-    course, rows = given.races[scenario].course, []
+    course = given.races[scenario].course
+    rows, missing = [], []
     for thrust in section["thrust_sweep_m_s2"]:
         cubesat = CubeSat("any", thrust, (), course.start)
         row: dict[str, Any] = {"scenario": scenario, "thrust_m_s2": thrust}
+        multiplier = np.nan
         for name, finish in ((WHOLE, "state"), (ANYWHERE, "rest anywhere")):
             solver = program(course.rings, finish, section["optimum"]["intervals"])
-            plan = solver.solve(whole_leg(course, cubesat), cubesat, given.mean_motion)
+            plan = attempts.solve(solver, whole_leg(course, cubesat), cubesat, given.mean_motion)
+            if not plan.converged:
+                case = f"{scenario}, thrust of {thrust:g} m/s^2, {name}"
+                missing.append(attempts.not_converged(case, plan, cubesat, given.mean_motion))
             flown = fly_plan(plan, given.mean_motion)
             row |= {
-                f"{name} (s)": plan.time,
+                f"{name} (s)": plan.time if plan.converged else np.nan,
                 f"{name}, converged": plan.converged,
-                f"{name}, residual": residual(plan, flown, cubesat, course),
+                f"{name}, residual": (
+                    residual(plan, flown, cubesat, course) if plan.converged else np.nan
+                ),
             }
-        check = primer_check(plan, cubesat, given.mean_motion)
-        row["largest_ring_multiplier_s_m"] = check["largest_ring_multiplier_s_m"]
-        rows.append(row)
-    return pd.DataFrame(rows)
+            if plan.converged:
+                check = primer_check(plan, cubesat, given.mean_motion)
+                multiplier = check["largest_ring_multiplier_s_m"]
+        rows.append(row | {"largest_ring_multiplier_s_m": multiplier})
+    return pd.DataFrame(rows), missing
 
 
-def start_positions(given: Parameters, section: Config, scenario: str) -> pd.DataFrame:
+def start_positions(given: Parameters, section: Config, scenario: str) -> Checked:
     """The optimum from random places at the start, drawn as the document draws them."""
     numbers, course = section["random_courses"], given.races[scenario].course
     draws = np.random.default_rng([numbers["seed"], 1])
-    rows = []
+    solver = program(course.rings, "state", section["optimum"]["intervals"])
+    rows, missing = [], []
     for number in range(numbers["positions"]):
         offset = given.scatter * np.array([1.0, 0.0, 1.0]) * draws.standard_normal(3)
         cubesat = CubeSat("any", numbers["thrust_m_s2"], (), course.start + offset)
-        solver = program(course.rings, "state", section["optimum"]["intervals"])
-        plan = solver.solve(whole_leg(course, cubesat), cubesat, given.mean_motion)
+        plan = attempts.solve(solver, whole_leg(course, cubesat), cubesat, given.mean_motion)
+        if not plan.converged:
+            case = f"{scenario}, random place {number} at the start"
+            missing.append(attempts.not_converged(case, plan, cubesat, given.mean_motion))
         rows.append(
             {
                 "scenario": scenario,
                 "number": number,
                 "x_m": offset[0],
                 "z_m": offset[2],
-                "time_s": plan.time,
+                "time_s": plan.time if plan.converged else np.nan,
                 "converged": plan.converged,
             }
         )
-    return pd.DataFrame(rows)
+    return pd.DataFrame(rows), missing

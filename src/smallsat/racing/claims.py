@@ -11,13 +11,15 @@ import pandas as pd
 
 from smallsat.config import Config
 from smallsat.evidence.claims import Judgement, judged
-from smallsat.racing.parameters import parameters
+from smallsat.racing.cubesat import CubeSat
+from smallsat.racing.parameters import Parameters, parameters
 from smallsat.racing.printed import PRINTED
 from smallsat.racing.races import ANYWHERE, AS_PUBLISHED, GREEDY, INDIRECT, WHOLE
 from smallsat.racing.recovery import start_positions
 from smallsat.results import read_table
 
 ROUNDING = 0.0015  # of a sum of two printed values and its own
+CUBESATS = ("Eeny", "Meeny", "Miny", "Mo")
 CENTRED = 1e-6  # m
 AGREES = 0.05  # s
 # Changes of a result that a reader would call massive, and none, as shares.
@@ -27,19 +29,42 @@ USED = (0.1, 0.5)  # m/s^2
 
 
 def _races(results: Path, solution: str, scenario: str) -> pd.DataFrame:
+    """Races of one kind by CubeSat; those without a solution are not among them."""
     races = read_table(results / "races.csv")
     rows = races[(races["solution"] == solution) & (races["scenario"] == scenario)]
-    return rows.set_index("cubesat")
+    return rows[rows["time_s"].notna()].set_index("cubesat")
+
+
+def _all_races(results: Path, solution: str, scenario: str) -> pd.DataFrame:
+    """The same where a claim speaks of all CubeSats; a `LookupError` where one is missing."""
+    rows = _races(results, solution, scenario)
+    return rows.loc[list(CUBESATS)]
+
+
+def _complete(table: pd.DataFrame, *columns: str) -> pd.DataFrame:
+    """The table itself; a `LookupError` where a number in these columns is missing."""
+    if table.empty or table[list(columns)].isna().any(axis=None):
+        raise LookupError("a case without a solution")
+    return table
 
 
 def _meshes(results: Path) -> pd.DataFrame:
-    table = read_table(results / "meshes.csv")
+    table = _complete(read_table(results / "meshes.csv"), "time_s")
     return table[table["intervals"] == table["intervals"].min()]
+
+
+def _axial(given: Parameters) -> CubeSat:
+    """Mo of the first race, where its thrusters are axial; else a `LookupError`."""
+    mo = next(c for c in given.races["scenario-1"].cubesats if c.name == "Mo")
+    if not mo.axis_thrust:
+        raise LookupError("Mo may thrust in any direction")
+    return mo
 
 
 def faster_with_thrust(config: Config, results: Path) -> Judgement:
     """Optimal times over thrust."""
-    sweep = read_table(results / "thrust-sweep.csv").sort_values("thrust_m_s2")
+    sweep = _complete(read_table(results / "thrust-sweep.csv"), f"{WHOLE} (s)")
+    sweep = sweep.sort_values("thrust_m_s2")
     times = sweep[f"{WHOLE} (s)"].to_numpy()
     products = times * np.sqrt(sweep["thrust_m_s2"].to_numpy())
     return judged(
@@ -52,7 +77,7 @@ def faster_with_thrust(config: Config, results: Path) -> Judgement:
 
 def no_thrust_is_best_for_accuracy(config: Config, results: Path) -> Judgement:
     """Misses of the optimum over thrust."""
-    sweep = read_table(results / "thrust-sweep.csv")
+    sweep = _complete(read_table(results / "thrust-sweep.csv"), f"{WHOLE} (s)")
     worst = float(sweep[f"{WHOLE}, residual"].max())
     multiplier = float(sweep["largest_ring_multiplier_s_m"].max())
     return judged(
@@ -78,7 +103,7 @@ def mo_can_pass(config: Config, results: Path) -> Judgement:
 
 def mo_slower_than_meeny(config: Config, results: Path) -> Judgement:
     """Optimal times of Mo and Meeny."""
-    races = _races(results, WHOLE, "scenario-1")["time_s"]
+    races = _all_races(results, WHOLE, "scenario-1")["time_s"]
     given = parameters(config["racing"])
     mo = next(c for c in given.races["scenario-1"].cubesats if c.name == "Mo")
     return judged(
@@ -107,10 +132,11 @@ def direction_is_the_trouble(config: Config, results: Path) -> Judgement:
 def full_thrust_against_primer(config: Config, results: Path) -> Judgement:
     """Thrust and primer of the optimum, from independent parts of the solution."""
     meshes = _meshes(results)
-    free = meshes[meshes["primer_angle_median_deg"].notna()]
+    # A run in which all thrusters are alike has only one of the two.
+    free = _complete(meshes[meshes["primer_angle_median_deg"].notna()], "time_s")
     share = float(free["full_thrust_share"].min())
     angle, largest = (float(free[f"primer_angle_{w}_deg"].max()) for w in ("median", "largest"))
-    axial = meshes[meshes["sign_share"].notna()]
+    axial = _complete(meshes[meshes["sign_share"].notna()], "time_s")
     return judged(
         bool(share > 0.98 and largest < 1.0 and (axial["sign_share"] == 1.0).all()),
         f"on the optima {100 * share:.1f} % of the held pieces or more have full thrust, and it "
@@ -125,7 +151,7 @@ def full_thrust_against_primer(config: Config, results: Path) -> Judgement:
 
 def hamiltonian_is_minus_one(config: Config, results: Path) -> Judgement:
     """The Hamiltonian of the optimum over meshes."""
-    table = read_table(results / "meshes.csv")
+    table = _complete(read_table(results / "meshes.csv"), "time_s")
     found = table.groupby("intervals")["hamiltonian_error"].max()
     median = float(_meshes(results)["hamiltonian_median_error"].max())
     fine = table[table["intervals"] == table["intervals"].max()]
@@ -143,6 +169,7 @@ def adjoints_jump(config: Config, results: Path) -> Judgement:
     largest = float(_meshes(results)["largest_ring_multiplier_s_m"].max())
     segments = read_table(results / "optima-scenario-1-segments.csv")
     rows = segments[(segments["solution"] == WHOLE) & (segments["cubesat"] == "Meeny")]
+    rows = _complete(rows, "px")
     typical = float(np.linalg.norm(rows[["px", "py", "pz"]].to_numpy(), axis=1).mean())
     return judged(
         largest > 0.0,
@@ -153,10 +180,9 @@ def adjoints_jump(config: Config, results: Path) -> Judgement:
 
 def not_smooth(config: Config, results: Path) -> Judgement:
     """Where the problem has a kink or a jump: the miss at its optimum, and Mo's thrust."""
-    given = parameters(config["racing"])
-    mo = next(c for c in given.races["scenario-1"].cubesats if c.name == "Mo")
+    mo = _axial(parameters(config["racing"]))
     jump = mo.thrust - float(np.linalg.norm(mo.axis_thrust[:2]))
-    worst = float(_races(results, WHOLE, "scenario-1")["accuracy_m"].max())
+    worst = float(_all_races(results, WHOLE, "scenario-1")["accuracy_m"].max())
     return judged(
         worst > CENTRED,
         f"the miss |r - r_ring| has its kink at zero, and that is where the optimum lies "
@@ -184,7 +210,7 @@ def _primer_at_rings(results: Path, stem: str, solution: str) -> float:
     path = read_table(results / f"{stem}-scenario-1-trajectories.parquet")
     course = read_table(results / "course-scenario-1.csv")
     normals = course[["nx", "ny", "nz"]].to_numpy(dtype=float)[1:-1]
-    rows = path[(path["solution"] == solution) & (path["cubesat"] == "Meeny")]
+    rows = _complete(path[(path["solution"] == solution) & (path["cubesat"] == "Meeny")], "pvx")
     last = rows.groupby("segment").last()[["pvx", "pvy", "pvz"]].to_numpy()[: len(normals)]
     largest = (
         rows.groupby("segment")[["pvx", "pvy", "pvz"]]
@@ -226,7 +252,7 @@ def minimum_cost_is_no_bound_of_the_race(config: Config, results: Path) -> Judge
 
 def start_positions_hardly_matter(config: Config, results: Path) -> Judgement:
     """Optimal times from random places at the start of Scenario 2."""
-    table = read_table(results / "random-positions.csv")
+    table = _complete(read_table(results / "random-positions.csv"), "time_s")
     times = table["time_s"]
     spread = float(times.max() - times.min())
     return judged(
@@ -241,7 +267,7 @@ def start_positions_hardly_matter(config: Config, results: Path) -> Judgement:
 
 def potential_is_equal(config: Config, results: Path) -> Judgement:
     """Optimal times of the four CubeSats of Scenario 2."""
-    times = _races(results, WHOLE, "scenario-2")["time_s"].sort_values()
+    times = _all_races(results, WHOLE, "scenario-2")["time_s"].sort_values()
     return Judgement(
         "holds" if times.index[0] == "Mo" else "fails",
         f"by the optimum Mo has it, and by next to nothing: "
@@ -255,8 +281,8 @@ def whole_course_remedies(config: Config, results: Path) -> Judgement:
     """Whole course against segment by segment."""
     texts, better = [], []
     for scenario in ("scenario-1", "scenario-2"):
-        whole = _races(results, WHOLE, scenario)
-        greedy = _races(results, GREEDY, scenario)["time_s"]
+        whole = _all_races(results, WHOLE, scenario)
+        greedy = _all_races(results, GREEDY, scenario)["time_s"]
         gain = 100.0 * (1.0 - whole["time_s"] / greedy)
         better.append(bool((gain > 0.0).all() and (whole["off_axis"] == 0).all()))
         texts.append(f"{gain.min():.1f} to {gain.max():.1f} %")
@@ -316,6 +342,8 @@ def scenario_2_recovered(config: Config, results: Path) -> Judgement:
     error = np.abs(places - printed)[:, [0, 2]]
     days = read_table(results / "days-as-seeds.csv")
     day = days[days["seed"] == seed]
+    if day.empty:
+        raise LookupError("the seed is the number of no day of these years")
     others = days.loc[days["seed"] != seed, "largest_difference_m"].replace(np.inf, np.nan)
     along = abs(float(places[0, 1] - printed[0, 1]))
     to_digit = int((error <= 0.05).sum())
@@ -363,17 +391,19 @@ def optimum_is_confirmed(config: Config, results: Path) -> Judgement:
     """Convergence, independent flights, other starts, meshes, dynamic programming."""
     races = read_table(results / "races.csv")
     ours = races[races["solution"].isin((WHOLE, ANYWHERE, GREEDY))]
+    _complete(ours, "time_s")
     starts = read_table(results / "other-starts.csv")
+    _complete(starts[starts["converged"]], "time_s")
     spread = starts[starts["converged"]].groupby(["scenario", "cubesat"])["time_s"]
     apart = float((spread.max() - spread.min()).max())
-    meshes = read_table(results / "meshes.csv")
+    meshes = _complete(read_table(results / "meshes.csv"), "time_s")
     change = meshes.groupby(["scenario", "cubesat"])["time_s"].agg(
         lambda t: (t.iloc[0] - t.iloc[-1]) / t.iloc[0]
     )
-    dp = read_table(results / "dynamic-programming.csv").iloc[-1]
+    dp = _complete(read_table(results / "dynamic-programming.csv"), "time_s").iloc[-1]
     name, scenario = dp["cubesat"], dp["scenario"]
     whole = float(_races(results, WHOLE, scenario).loc[name, "time_s"])
-    indirect = races[races["solution"] == INDIRECT]
+    indirect = _complete(races[races["solution"] == INDIRECT], "rings")
     return judged(
         bool(
             (ours["not_converged"] == 0).all()
@@ -399,8 +429,8 @@ def published_among_random(config: Config, results: Path) -> Judgement:
     """Printed times of Scenario 2 among optimal times of random courses with as many rings."""
     table = read_table(results / "random-courses.csv")
     own = table[table["rule"] == "generator"]
-    times = own["time_s"].dropna()
-    ours = float(_races(results, WHOLE, "scenario-2")["time_s"].mean())
+    times = _complete(own[own["time_s"].notna()], "time_s")["time_s"]
+    ours = float(_all_races(results, WHOLE, "scenario-2")["time_s"].mean())
     ranks = {
         name: 100.0 * float((times < row[1]).mean())
         for (scenario, name), row in PRINTED.items()

@@ -85,6 +85,8 @@ class Plan:
         State at the end (6,).
     solution
         What the solver says.
+    tried
+        The ways to it that were tried, in order, where there were several.
     """
 
     durations: np.ndarray
@@ -93,6 +95,7 @@ class Plan:
     costates: np.ndarray
     final: np.ndarray
     solution: Solution
+    tried: tuple[str, ...] = ()
 
     @property
     def time(self) -> float:

@@ -21,6 +21,8 @@ TITLES = {AS_PUBLISHED: "as published (solve of the listing)", OPTIMAL: "optimal
 AXES_LABELS = ("radial (m)", "along track (m)", "cross track (m)")
 # Rings are 1 to 5 m on a course of a kilometre: drawn larger, they can be seen.
 ENLARGED = 12.0
+# What stands in the place of a path that was not found.
+MISSING = "not converged"
 ROUND = np.linspace(0.0, 2.0 * np.pi, 41)
 
 
@@ -76,3 +78,8 @@ def label_axes(axes: Any) -> None:
 def zero_line(axes: Axes) -> None:
     """A quiet line at zero."""
     axes.axhline(0.0, color="#bbbbbb", lw=0.6, zorder=0)
+
+
+def say_missing(axes: Axes) -> None:
+    """The word in the middle of a panel whose data no solver found."""
+    axes.text(0.5, 0.5, MISSING, transform=axes.transAxes, ha="center", va="center", fontsize=8)

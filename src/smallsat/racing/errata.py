@@ -119,7 +119,7 @@ def angle_steps(config: Config, results: Path) -> Proof:
         halved = generate(MatlabStream(seed), given.ranges).start[1]
         whole = generate(MatlabStream(seed), given.ranges, halved=False).start[1]
         printed = parse_printed(PRINTED_Y[scenario])
-        assert printed is not None
+        assert printed is not None, PRINTED_Y[scenario]
         fits.append(printed.matches(halved))
         misfits.append(not printed.matches(whole))
         texts.append((f"{whole:.1f}", f"{halved:.1f}", PRINTED_Y[scenario]))
@@ -231,7 +231,10 @@ def ring_size(config: Config, results: Path) -> Proof:
 def axial_thrust(config: Config, results: Path) -> Proof:
     """Eq. 24, the listings' law and the minimiser at one primer vector."""
     given = parameters(config["racing"])
-    mo = next(c for c in given.races["scenario-1"].cubesats if c.axis_thrust)
+    axial = [c for c in given.races["scenario-1"].cubesats if c.axis_thrust]
+    if not axial:
+        raise LookupError("no CubeSat has axial thrusters")
+    mo = axial[0]
     limits, deadzone = np.array(mo.axis_thrust), given.as_published.deadzone
     equation = np.where(np.abs(PRIMER) > deadzone, -limits * np.sign(PRIMER), 0.0)
     listing = np.array(thrust_components(PRIMER, NORM_OF_AXES, limits, deadzone))
@@ -272,6 +275,8 @@ def equality_ranks(config: Config, results: Path, transposed: bool) -> tuple[int
         & (segments["cubesat"] == "Meeny")
         & (segments["segment"] == 0)
     ].iloc[0]
+    if not row["converged"]:
+        raise LookupError("no converged segment")
     z = np.r_[row[["px", "py", "pz", "pvx", "pvy", "pvz"]].to_numpy(dtype=float), row["duration_s"]]
     return ranks_at(parameters(config["racing"]), z, transposed)
 

@@ -126,6 +126,11 @@ def segment_table(
     return _part(number, began + times, flown[:, :6], thrust, flown[:, 6:])
 
 
+# Columns of the rows that `ring_rows` makes.
+RING = ["ring", "arrival_s", "miss_m", "plane_m", "angle_deg", "speed_m_s", "size_m"]
+RING += ["missed", "off_axis"]
+
+
 def ring_rows(
     course: Course, ends: np.ndarray, arrivals: np.ndarray, plane: float, pointing: float
 ) -> list[dict[str, Any]]:

@@ -15,6 +15,7 @@ from smallsat.racing.drawing import (
     AS_PUBLISHED,
     COLOURS,
     ENLARGED,
+    MISSING,
     OPTIMAL,
     RING,
     STYLES,
@@ -25,6 +26,7 @@ from smallsat.racing.drawing import (
     label_axes,
     positions,
     ring_curve,
+    say_missing,
     zero_line,
 )
 
@@ -105,9 +107,10 @@ def race_figure(course: Course, paths: pd.DataFrame, races: pd.DataFrame) -> Fig
             outside = ((points < limits[:, 0]) | (points > limits[:, 1])).any(axis=1)
             points = np.where(np.atleast_2d(outside).T, np.nan, points)
             score = scores.loc[name]
+            label = f"cost {score['cost']:.0f}, {score['missed']:.0f} missed"
             axes.plot(
                 *points.T, color=colour, lw=1.0,
-                label=f"{name}: cost {score['cost']:.0f}, {score['missed']:.0f} missed",
+                label=f"{name}: {MISSING if path.empty else label}",
             )  # fmt: skip
         label_axes(axes)
         axes.view_init(VIEW_ELEVATION_DEG, VIEW_AZIMUTH_DEG)
@@ -134,6 +137,9 @@ def trajectory_figure(course: Course, paths: pd.DataFrame, cubesat: str) -> Figu
     figure, grid = plt.subplots(4, 2, figsize=(WIDTH, 6.6), sharex="col")
     for column, solution in enumerate((AS_PUBLISHED, OPTIMAL)):
         own = paths[(paths["solution"] == solution) & (paths["cubesat"] == cubesat)]
+        if own.empty:
+            for axes in grid[:, column]:
+                say_missing(axes)
         last = own.groupby("segment").last()
         arrivals = last["time_s"].to_numpy()[: course.rings]
         for row, (label, names) in enumerate(PANELS):
@@ -147,8 +153,11 @@ def trajectory_figure(course: Course, paths: pd.DataFrame, cubesat: str) -> Figu
                         wanted = course.centres[:, i]
                     else:
                         speed = last[PANELS[1][1]].pow(2).sum(axis=1).pow(0.5).to_numpy()
-                        wanted = speed[: course.rings] * course.normals[:, i]
-                    axes.plot(arrivals, wanted, "o", ms=3, mfc="white", mec=colour, mew=0.8)
+                        wanted = speed[: len(arrivals)] * course.normals[: len(arrivals), i]
+                    axes.plot(
+                        arrivals, wanted[: len(arrivals)], "o", ms=3, mfc="white", mec=colour,
+                        mew=0.8,
+                    )  # fmt: skip
             if column == 0:
                 axes.set_ylabel(label)
         grid[0, column].set_title(TITLES[solution])
@@ -180,8 +189,11 @@ def segment_figure(course: Course, paths: pd.DataFrame, segment: int) -> Figure:
     grid = figure.add_gridspec(1, 3, width_ratios=(1.2, 1.2, 1.0))
     before = course.start if segment == 0 else course.centres[segment - 1]
     after = course.end if final else course.centres[segment]
-    view = _side_view(before, after, positions(own[own["solution"] == OPTIMAL]))
-    optimal = (positions(own[own["solution"] == OPTIMAL]) - before) @ view.T
+    # Without an optimal path in it, a segment is seen around its two ends.
+    paths_shown = positions(own[own["solution"] == OPTIMAL])
+    points_shown = paths_shown if len(paths_shown) else np.array([before, after])
+    view = _side_view(before, after, points_shown)
+    optimal = (points_shown - before) @ view.T
     low, high = optimal.min(axis=0) - SIDE_MARGIN, optimal.max(axis=0) + SIDE_MARGIN
     for place, solution in enumerate((AS_PUBLISHED, OPTIMAL)):
         axes = figure.add_subplot(grid[place])
@@ -189,6 +201,8 @@ def segment_figure(course: Course, paths: pd.DataFrame, segment: int) -> Figure:
             path = own[(own["solution"] == solution) & (own["cubesat"] == name)]
             points = (positions(path) - before) @ view.T
             axes.plot(*points.T, color=colour, ls=STYLES[name], lw=1.2)
+        if own[own["solution"] == solution].empty:
+            say_missing(axes)
         for k, colour in ((segment - 1, GREEN), (segment, VERMILION)):
             if 0 <= k < course.rings:
                 ring = (ring_curve(course, k, 3.0) - before) @ view.T
@@ -229,6 +243,9 @@ def _side_view(before: np.ndarray, after: np.ndarray, points: np.ndarray) -> np.
     off = off - np.outer(off @ along, along)
     aside = np.linalg.svd(off, full_matrices=False)[2][0]
     aside = aside - (aside @ along) * along
+    if not np.linalg.norm(aside) > 0.0:
+        # A straight way is seen from anywhere.
+        aside = np.cross(along, np.eye(3)[np.abs(along).argmin()])
     aside /= np.linalg.norm(aside)
     # Of two equal views the one in which the paths bend upwards.
     return np.array([along, aside if (off @ aside).sum() >= 0.0 else -aside])
@@ -248,6 +265,8 @@ def _face_in(axes: Any, course: Course, own: pd.DataFrame, segment: int) -> None
     for solution, marker in ((AS_PUBLISHED, "x"), (OPTIMAL, "o")):
         for name, colour in COLOURS.items():
             path = own[(own["solution"] == solution) & (own["cubesat"] == name)]
+            if path.empty:
+                continue
             offset = positions(path)[-1] - centre
             spot = np.array([offset @ level, offset @ up])
             far = float(np.abs(spot).max())
@@ -283,6 +302,7 @@ def missed_figure(rings: pd.DataFrame) -> Figure:
             for name in COLOURS:
                 crossed = own[(own["solution"] == solution) & (own["cubesat"] == name)]
                 if crossed.empty:
+                    # Not solved, or of a CubeSat that this method does not serve.
                     continue
                 for ring, missed, off in crossed[["ring", "missed", "off_axis"]].to_numpy():
                     colour = VERMILION if missed else (ORANGE if off else "#cfe8df")
@@ -333,9 +353,7 @@ def score_figure(scores: pd.DataFrame) -> Figure:
                         "o" if kind != "printed" else "D", color=colours[kind], ms=5,
                     )  # fmt: skip
         axes.set_xscale("log")
-        axes.set_xticks(
-            [1000, 2000, 5000, 10000, 30000], ["1000", "2000", "5000", "10000", "30000"]
-        )
+        _round_ticks(axes.set_xticks, [1000, 2000, 5000, 10000, 30000], scores["cost"])
         axes.minorticks_off()
         axes.set_xlabel("cost (s + m)")
         axes.set_title(f"Scenario {scenario[-1]}")
@@ -349,10 +367,24 @@ def score_figure(scores: pd.DataFrame) -> Figure:
     return figure
 
 
+def _round_ticks(set_ticks: Any, ticks: list[int], shown: pd.Series) -> None:
+    """Ticks of a logarithmic axis: these, and their multiples by powers of ten up to the data."""
+    least, largest = shown.min(), shown.max()
+    if not least > 0.0:
+        return
+    first = int(np.floor(np.log10(least / ticks[0]) + 0.5))
+    last = max(first, int(np.floor(np.log10(largest / ticks[-1]))))
+    scaled = [tick * 10.0**power for power in range(first, last + 1) for tick in ticks]
+    set_ticks(scaled, [f"{tick:.10g}" for tick in scaled])
+
+
 def random_figure(courses: pd.DataFrame, races: pd.DataFrame, printed: pd.DataFrame) -> Figure:
     """Optimal times of random courses, the course itself, and the printed times."""
     figure, axes = plt.subplots(figsize=(WIDTH, 3.2))
     bins = np.linspace(courses["time_s"].min(), courses["time_s"].max(), 41)
+    if courses["time_s"].isna().all():
+        say_missing(axes)
+        bins = np.array([0.0, 1.0])
     for rule, colour, label in (
         ("generator", BLUE, "random courses of the generator"),
         ("text", ORANGE, "random courses by the text's rules"),
@@ -360,7 +392,8 @@ def random_figure(courses: pd.DataFrame, races: pd.DataFrame, printed: pd.DataFr
         times = courses.loc[courses["rule"] == rule, "time_s"].dropna()
         axes.hist(times, bins.tolist(), histtype="step", color=colour, lw=1.3, label=label)
     ours = races[(races["scenario"] == "scenario-2") & (races["solution"] == OPTIMAL)]
-    axes.axvline(ours["time_s"].mean(), color=BLACK, lw=1.2, label="this course, optimal")
+    if ours["time_s"].notna().any():
+        axes.axvline(ours["time_s"].mean(), color=BLACK, lw=1.2, label="this course, optimal")
     top = axes.get_ylim()[1]
     own = printed[printed["scenario"] == "scenario-2"].sort_values("time_s")
     for step, row in enumerate(own.to_dict("records")):
@@ -369,7 +402,10 @@ def random_figure(courses: pd.DataFrame, races: pd.DataFrame, printed: pd.DataFr
             row["time_s"], top * (0.98 - 0.09 * step), f" {row['cubesat']}, printed",
             color=COLOURS[row["cubesat"]], fontsize=7, va="top",
         )  # fmt: skip
-    axes.set_xlim(right=own["time_s"].max() + 60.0)
+    # Up to the last printed time; farther only where that would leave most courses out.
+    last = own["time_s"].max() + 60.0
+    if not courses["time_s"].median() > last:
+        axes.set_xlim(right=last)
     axes.set_xlabel("time (s)")
     axes.set_ylabel("courses")
     axes.legend(loc="upper left", fontsize=7)
@@ -413,9 +449,9 @@ def thrust_figure(sweep: pd.DataFrame) -> Figure:
     right.semilogx(ordered["thrust_m_s2"], ordered["largest_ring_multiplier_s_m"], "o-", color=BLUE)
     right.axhline(1.0, color=VERMILION, ls="--", lw=1.0)
     right.text(ordered["thrust_m_s2"].min(), 0.93, "what it costs", color=VERMILION, va="top")
-    right.set_ylim(0.0, 1.1)
+    right.set_ylim(0.0, max(1.1, 1.1 * ordered["largest_ring_multiplier_s_m"].max()))
     left.set_ylabel("time (s)")
-    left.set_yticks([600, 1000, 2000], ["600", "1000", "2000"])
+    _round_ticks(left.set_yticks, [600, 1000, 2000], ordered[f"{OPTIMAL} (s)"])
     right.set_ylabel("most that a metre of miss saves (s/m)")
     for axes in (left, right):
         axes.set_xlabel("thrust (m/s$^2$)")

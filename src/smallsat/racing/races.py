@@ -9,11 +9,16 @@ import numpy as np
 import pandas as pd
 
 from smallsat.config import Config
-from smallsat.racing import as_published, indirect
+from smallsat.evidence.not_converged import NotConverged
+from smallsat.racing import as_published, attempts, indirect
 from smallsat.racing.course import Course
 from smallsat.racing.course_program import LEAST_SPEED, CourseProgram, Leg, Plan, length_unit
 from smallsat.racing.cubesat import CubeSat
 from smallsat.racing.flight import (
+    COSTATE,
+    RING,
+    STATE,
+    THRUST,
     fly_plan,
     fly_segment,
     minimum_cost,
@@ -35,6 +40,7 @@ ALONG_TRACK_VARIANCE = 0.0
 # Of the least ring speed: below this a solution counts as held by it.
 SLOW = 1.01
 REST = np.zeros(3)
+KEY = ["scenario", "cubesat", "solution"]
 
 
 @dataclass
@@ -46,18 +52,22 @@ class Tables:
     segments: list[dict[str, Any]] = field(default_factory=list)
     trajectories: list[pd.DataFrame] = field(default_factory=list)
     seconds: list[dict[str, Any]] = field(default_factory=list)
+    not_converged: list[NotConverged] = field(default_factory=list)
 
     def frames(self) -> dict[str, pd.DataFrame]:
         """The tables by name, the seconds apart."""
         return {
             "races": pd.DataFrame(self.races),
-            "rings": pd.DataFrame(self.rings),
+            # Where no race was solved there are no rings, but the table has its columns.
+            "rings": pd.DataFrame(self.rings, columns=[*KEY, *RING]),
             "segments": pd.DataFrame(self.segments),
             "seconds": pd.DataFrame(self.seconds),
         }
 
     def trajectory(self) -> pd.DataFrame:
         """All trajectories in one table."""
+        if not self.trajectories:
+            return pd.DataFrame(columns=[*KEY, "segment", "time_s", *STATE, *THRUST, *COSTATE])
         return pd.concat(self.trajectories, ignore_index=True)
 
 
@@ -86,7 +96,8 @@ def fly_optima(given: Parameters, section: Config, scenario: str) -> Tables:
         key = {"scenario": scenario, "cubesat": cubesat.name}
         for name, finish in ((WHOLE, "state"), (ANYWHERE, "rest anywhere")):
             solver = program(race.course.rings, finish, numerics["intervals"])
-            plan = solver.solve(whole_leg(race.course, cubesat), cubesat, given.mean_motion)
+            leg = whole_leg(race.course, cubesat)
+            plan = attempts.solve(solver, leg, cubesat, given.mean_motion)
             _add_plan(tables, key | {"solution": name}, plan, given, race.course, cubesat)
             tables.seconds.append(key | {"solution": name, "seconds": plan.solution.seconds})
         began = time.perf_counter()
@@ -97,14 +108,20 @@ def fly_optima(given: Parameters, section: Config, scenario: str) -> Tables:
         tables.seconds.append(key | {"solution": GREEDY, "seconds": greedy_seconds})
         if not cubesat.axis_thrust:
             began = time.perf_counter()
-            _add_extremals(tables, key, plans, given, section, race.course, cubesat)
+            if joined.converged:
+                _add_extremals(tables, key, plans, given, section, race.course, cubesat)
+            else:
+                _without_start(tables, key | {"solution": INDIRECT}, race.course)
             seconds = time.perf_counter() - began
             tables.seconds.append(key | {"solution": INDIRECT, "seconds": seconds})
     return tables
 
 
 def greedy(course: Course, cubesat: CubeSat, mean_motion: float, intervals: int) -> list[Plan]:
-    """Each segment in least time by itself, from where the last one ended."""
+    """Each segment in least time by itself, from where the last one ended.
+
+    Ends with the first segment that does not converge, as the next has nowhere to begin.
+    """
     state = np.r_[cubesat.position, REST]
     plans = []
     for k in range(course.rings + 1):
@@ -118,7 +135,9 @@ def greedy(course: Course, cubesat: CubeSat, mean_motion: float, intervals: int)
             REST,
         )
         solver = program(0 if final else 1, "state" if final else "ring", intervals)
-        plans.append(solver.solve(leg, cubesat, mean_motion))
+        plans.append(attempts.solve(solver, leg, cubesat, mean_motion))
+        if not plans[-1].converged:
+            break
         state = plans[-1].final
     return plans
 
@@ -133,6 +152,7 @@ def join(plans: list[Plan]) -> Plan:
         costates=np.vstack([plan.costates for plan in plans]),
         final=plans[-1].final,
         solution=worst.solution,
+        tried=worst.tried,
     )
 
 
@@ -145,6 +165,16 @@ def _add_plan(
     cubesat: CubeSat,
     plans: list[Plan] | None = None,
 ) -> None:
+    """A race in all tables; one that was not solved as missing, and where it was not."""
+    if not plan.converged:
+        where = "" if plans is None else f", segment {segment_name(course, len(plans) - 1)}"
+        last = plan if plans is None else plans[-1]
+        tables.not_converged.append(
+            attempts.not_converged(case_name(key) + where, last, cubesat, given.mean_motion)
+        )
+        solved = len(plans) - 1 if plans else 0
+        _add_missing(tables, key, course, solved, last.solution.status)
+        return
     flown = fly_plan(plan, given.mean_motion)
     arrivals = np.cumsum(plan.durations)
     rows = ring_rows(course, flown[:, -1], arrivals, given.plane, given.pointing)
@@ -170,7 +200,7 @@ def _add_plan(
             "duration_s": float(plan.durations[k]),
             "converged": (plans[k] if plans else plan).converged,
             "status": (plans[k] if plans else plan).solution.status,
-            **dict(zip(_COSTATES, plan.costates[k].tolist(), strict=True)),
+            **dict(zip(COSTATE, plan.costates[k].tolist(), strict=True)),
         }
         for k in range(course.rings + 1)
     ]
@@ -180,7 +210,51 @@ def _add_plan(
     tables.trajectories.append(table)
 
 
-_COSTATES = ["px", "py", "pz", "pvx", "pvy", "pvz"]
+def case_name(key: dict[str, Any]) -> str:
+    """What was to be solved, in the words of `NotConverged`."""
+    return ", ".join(key.values())
+
+
+def _add_missing(
+    tables: Tables, key: dict[str, Any], course: Course, solved: int, status: str
+) -> None:
+    """A race without a solution: no numbers but how many of its segments were not solved."""
+    names = [segment_name(course, k) for k in range(solved, course.rings + 1)]
+    tables.races.append(key | _unsolved(course, names))
+    tables.segments += [
+        key
+        | {
+            "segment": k,
+            "name": segment_name(course, k),
+            "duration_s": np.nan,
+            "converged": False,
+            "status": "without the others" if k < solved else status,
+            **dict.fromkeys(COSTATE, np.nan),
+        }
+        for k in range(course.rings + 1)
+    ]
+
+
+def _unsolved(course: Course, names: list[str]) -> dict[str, Any]:
+    """What a race without a solution has in its row: which of its segments were not solved."""
+    return dict.fromkeys(_TOTALS, np.nan) | {
+        "rings": course.rings,
+        "segments": course.rings + 1,
+        "not_converged": len(names),
+        "segments_not_converged": "; ".join(names),
+        "residual": np.nan,
+        "iterations": 0,
+    }
+
+
+def _without_start(tables: Tables, key: dict[str, Any], course: Course) -> None:
+    """The indirect method where the direct one, from whose plans it starts, found none."""
+    status = "no direct solution to start from"
+    tables.not_converged.append(NotConverged(case_name(key), status))
+    _add_missing(tables, key, course, 0, status)
+
+
+_TOTALS = ["cost", "time_s", "accuracy_m", "minimum_cost_s", "missed", "off_axis"]
 
 
 def _add_extremals(
@@ -222,6 +296,14 @@ def _add_extremals(
                 break
         if not found.converged:
             failed.append(segment_name(course, k))
+            tables.not_converged.append(
+                NotConverged(
+                    f"{case_name(key)}, segment {failed[-1]}",
+                    "no root",
+                    found.error,
+                    f"quadratures of {section['optimum']['indirect_panels']} to {panels} panels",
+                )
+            )
         total += found.duration
         starts.append(plan.starts[0])
         ends.append(found.end)
@@ -233,10 +315,13 @@ def _add_extremals(
                 "duration_s": found.duration,
                 "converged": found.converged,
                 "status": "converged" if found.converged else f"error {found.error:.0e}",
-                **dict(zip(_COSTATES, found.costate.tolist(), strict=True)),
+                **dict(zip(COSTATE, found.costate.tolist(), strict=True)),
             }
         )
     tables.segments += rows
+    if failed:
+        tables.races.append(key | _unsolved(course, failed))
+        return
     arrivals = np.cumsum([row["duration_s"] for row in rows])
     passed = ring_rows(course, np.array(ends), arrivals, given.plane, given.pointing)
     tables.rings += [key | row for row in passed]
@@ -311,7 +396,7 @@ def _fly_as_published(
                 "duration_s": solved.duration,
                 "converged": solved.converged,
                 "status": solved.status,
-                **dict(zip(_COSTATES, solved.costate.tolist(), strict=True)),
+                **dict(zip(COSTATE, solved.costate.tolist(), strict=True)),
             }
         )
         if not solved.converged:

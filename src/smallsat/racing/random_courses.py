@@ -6,6 +6,8 @@ import numpy as np
 import pandas as pd
 
 from smallsat.config import Config
+from smallsat.evidence.not_converged import NotConverged
+from smallsat.racing import attempts
 from smallsat.racing.course import generate
 from smallsat.racing.cubesat import CubeSat
 from smallsat.racing.parameters import Parameters
@@ -17,8 +19,8 @@ RULES = {"generator": True, "text": False}
 
 def fly_random(
     given: Parameters, section: Config, shard: int, shards: int, rings: int
-) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Every shards-th course from a shard's first one: results, and seconds.
+) -> tuple[pd.DataFrame, pd.DataFrame, list[NotConverged]]:
+    """Every shards-th course from a shard's first one: results, seconds, courses not solved.
 
     Each course has a random stream of its own, so that results do not depend on the shards. It is
     drawn twice: with the generator's halved ranges of angles, and with the text's whole ones.
@@ -26,7 +28,7 @@ def fly_random(
     numbers = section["random_courses"]
     streams = np.random.SeedSequence(numbers["seed"]).spawn(numbers["courses"])
     solver = program(rings, "state", section["optimum"]["intervals"])
-    rows, seconds = [], []
+    rows, seconds, missing = [], [], []
     for number in range(shard, numbers["courses"], shards):
         for rule, halved in RULES.items():
             draws = np.random.default_rng(streams[number])
@@ -34,8 +36,11 @@ def fly_random(
             offset = given.scatter * np.array([1.0, 0.0, 1.0]) * draws.standard_normal(3)
             cubesat = CubeSat("any", numbers["thrust_m_s2"], (), course.start + offset)
             began = time.perf_counter()
-            plan = solver.solve(whole_leg(course, cubesat), cubesat, given.mean_motion)
+            plan = attempts.solve(solver, whole_leg(course, cubesat), cubesat, given.mean_motion)
             seconds.append({"number": number, "rule": rule, "seconds": time.perf_counter() - began})
+            if not plan.converged:
+                case = f"random course {number} by the rules of the {rule}"
+                missing.append(attempts.not_converged(case, plan, cubesat, given.mean_motion))
             rows.append(
                 {
                     "number": number,
@@ -52,4 +57,4 @@ def fly_random(
                     "sizes_m": float(course.sizes.sum()),
                 }
             )
-    return pd.DataFrame(rows), pd.DataFrame(seconds)
+    return pd.DataFrame(rows), pd.DataFrame(seconds), missing

@@ -37,7 +37,8 @@ def score_table(races: pd.DataFrame) -> pd.DataFrame:
     table["order"] = table["solution"].map(order)
     group = table.groupby(["scenario", "solution"])["cost"]
     table["behind"] = table["cost"] - group.transform("min")
-    table["place"] = group.rank().astype(int)
+    # Who has no score has no place.
+    table["place"] = group.rank().astype("Int64")
     table = table.sort_values(["scenario", "order", "place"], ignore_index=True)
     # What the document does not say of its rings stays open.
     for name in ("missed", "off_axis", "not_converged"):

@@ -14,7 +14,7 @@ from smallsat.rendezvous import inferred
 from smallsat.rendezvous.flights import fly_cases
 from smallsat.rendezvous.inference import SIDES, search
 from smallsat.rendezvous.nonlinear_flights import fly_nonlinear
-from smallsat.rendezvous.observations import observations
+from smallsat.rendezvous.observations import observations, undocked
 from smallsat.rendezvous.parameters import check
 from smallsat.rendezvous.study_observations import study_observations
 from smallsat.results import read_table, write_table
@@ -65,7 +65,7 @@ def _infer(section: Config, folder: Path) -> None:
 def _observe(section: Config, folder: Path) -> None:
     found = observations(section, folder) + study_observations({"rendezvous": section}, folder)
     write_table(observations_table(found), folder / "observations.csv")
-    write_table(not_converged_table([]), folder / "not-converged.csv")
+    write_table(not_converged_table(undocked(folder)), folder / "not-converged.csv")
 
 
 if __name__ == "__main__":

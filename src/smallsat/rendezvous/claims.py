@@ -108,6 +108,8 @@ def _largest(results: Path, constraint: str, motions: str, *places: str, case: s
     table = read_table(results / "constraints.csv")
     own = table[(table["constraint"] == constraint) & table["motion"].str.contains(motions)]
     own = own[own["flight"].str.contains(case)]
+    if own.empty or own[list(places)].isna().all(axis=None):
+        raise LookupError(f"no case comes to where the {constraint} binds")
     return float(own[list(places)].max().max())
 
 
@@ -401,12 +403,16 @@ def constraints_hold_between_samples(config: Config, results: Path) -> Judgement
         own = flights[flights["flight"] == case]
         for place, phase in enumerate(PHASES):
             changes = own[own["phase"] == phase][CHANGE].abs().to_numpy()
+            if not len(changes):
+                raise LookupError(f"{case} does not come to its {phase} phase")
             control = max(control, float(changes.max()) / given.control_bounds[place])
         # The first steps brake from the mid range's speed; the bound is softened there.
         late = own[(own["phase"] == "final") & (own["softened"] > 0)]["time_s"]
         start = float(late.max()) + given.sample_times[2] if len(late) else -np.inf
         path = paths[(paths["flight"] == case) & (paths["phase"] == "final")]
         path = path[path["time_s"] > start]
+        if path.empty:
+            raise LookupError(f"{case} keeps its constraints nowhere in the final phase")
         speed = max(speed, float(path[STATE[3:]].abs().to_numpy().max()) / given.speed_bound)
         for row in path[["time_s", *STATE[:3]]].to_numpy():
             rotated(np.array(given.axis), given.rotation_rate * row[0], axis)

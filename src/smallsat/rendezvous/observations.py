@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from smallsat.config import Config
+from smallsat.evidence.not_converged import NotConverged
 from smallsat.evidence.observation import Observation
 from smallsat.rendezvous.guidance import PHASES
 from smallsat.rendezvous.printed import CASE_TABLES, COMPARED, MINUTE, TOTAL, cell_id
@@ -55,14 +56,36 @@ def case_cells(section: Config, results: Path) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["case", "phase", "time_s", "delta_v_m_s"])
 
 
+def undocked(results: Path) -> list[NotConverged]:
+    """Cases of Section 3.6 that do not come to the end of a phase; of each its first such phase."""
+    phases = read_table(results / "phases.csv")
+    flights = read_table(results / "flights.parquet")
+    found = []
+    for case, part in phases[~phases["ended"]].groupby("flight", sort=False):
+        row = part.iloc[0]
+        end = flights[flights["flight"] == case].iloc[-1]
+        distance = float(np.linalg.norm(end[["x_m", "y_m", "z_m"]].to_numpy(dtype=float)))
+        found.append(
+            NotConverged(
+                f"{case}, {row['phase']} phase",
+                f"not ended within {end['time_s'] / MINUTE:.0f} min, {distance:.1f} m from the "
+                f"target",
+                distance,
+                f"{row['steps']} programs, {row['failed']} not solved, {row['softened']} softened",
+            )
+        )
+    return found
+
+
 def _cases(section: Config, results: Path) -> Iterator[Observation]:
     cells: Any = case_cells(section, results).set_index(["case", "phase"])
     note = "with the inferred parameters"
     for case in CASE_TABLES:
         for phase in (*PHASES, TOTAL):
             row = cells.loc[(case, phase)]
-            yield Observation(cell_id("total-delta-v", case, phase), row["delta_v_m_s"], note=note)
-            yield Observation(cell_id("time", case, phase), row["time_s"], note=note)
+            said = note if row.notna().all() else "not converged: the phase does not end"
+            yield Observation(cell_id("total-delta-v", case, phase), row["delta_v_m_s"], note=said)
+            yield Observation(cell_id("time", case, phase), row["time_s"], note=said)
     where = "rendezvous/section-3-6-1"
     first = cells.loc[("v-bar", TOTAL)]
     yield Observation(f"{where}/maneuver-time/case-1-v-bar", first["time_s"] / MINUTE)

@@ -1,8 +1,11 @@
 """The configuration's ``rendezvous`` section as guidance laws, and checks beyond the schema."""
 
+from itertools import pairwise
+
 import numpy as np
 
 from smallsat.config import Config
+from smallsat.dynamics import egm96
 from smallsat.errors import InputError
 from smallsat.rendezvous.guidance import (
     ALONG_AXIS,
@@ -25,6 +28,9 @@ R_BAR = {"above": (1.0, 0.0, 0.0), "below": (-1.0, 0.0, 0.0)}
 PLANE_RULES = {"shortest": SHORTEST, "natural": NATURAL, "current": CURRENT}
 SWITCHES = {"cone": CONE_ONLY, "distance": DISTANCE, "along axis": ALONG_AXIS}
 SET_POINT_TIMES = {"start": AT_START, "horizon": AT_HORIZON, "stage": AT_STAGE}
+# Names that the studies of chapter 4 have for the phases.
+STUDY_PHASES = ("rendezvous", "approach", "docking")
+MINUTE = 60.0
 CONE_SHARES = {"half": 1.0, "full": 0.5}
 
 
@@ -115,12 +121,84 @@ def check(section: Config) -> None:
             f"config key 'rendezvous.port_m': {section['port_m']} lies {port:g} m from the target; "
             f"must be less than 'rendezvous.inferred.overshoot_m', {r2:g}"
         )
+    _check_orbit(inferred["mean_motion_rad_s"])
+    _check_times(section)
+    _check_ranges(section)
     truth = section["truth"]
     if truth["gravity_order"] > truth["gravity_degree"]:
         raise InputError(
             f"config key 'rendezvous.truth.gravity_order': {truth['gravity_order']} is not "
             f"allowed; must be at most 'gravity_degree', {truth['gravity_degree']}"
         )
+
+
+def _check_orbit(mean_motion: float) -> None:
+    """Refuse an orbit below the ground: the truth flies it."""
+    highest = float(np.sqrt(egm96.MU / egm96.RADIUS**3))
+    if mean_motion >= highest:
+        raise InputError(
+            f"config key 'rendezvous.inferred.mean_motion_rad_s': {mean_motion:g} is not allowed; "
+            f"must be less than {highest:.6f}, that of an orbit at the Earth's surface"
+        )
+
+
+def _check_times(section: Config) -> None:
+    """Refuse steps that are longer than the manoeuvre, or too short for thrusters and delays."""
+    craft, studies = section["spacecraft"], section.get("studies")
+    for name in PHASES:
+        phase = section["phases"][name]
+        burn = phase["control_bound_m_s"] * craft["mass_kg"] / craft["thruster_N"]
+        if burn > phase["sample_time_s"]:
+            raise InputError(
+                f"config key 'rendezvous.phases.{name}.control_bound_m_s': "
+                f"{phase['control_bound_m_s']:g} is not allowed; {craft['thruster_N']:g} N on "
+                f"{craft['mass_kg']:g} kg burn {burn:.3g} s for it, longer than "
+                f"'sample_time_s', {phase['sample_time_s']:g}"
+            )
+    if studies is None:
+        return
+    limit = MINUTE * studies.get("time_limit_min", np.inf)
+    sampled = {
+        f"phases.{name}.sample_time_s": [section["phases"][name]["sample_time_s"]]
+        for name in PHASES
+    } | {f"studies.{name}.sample_times_s": studies[name]["sample_times_s"] for name in STUDY_PHASES}
+    for key, times in sampled.items():
+        if max(times) > limit:
+            raise InputError(
+                f"config key 'rendezvous.{key}': {max(times):g} is not allowed; must be at most "
+                f"'rendezvous.studies.time_limit_min', {limit / MINUTE:g}, in seconds"
+            )
+    shortest = min(section["phases"][name]["sample_time_s"] for name in PHASES)
+    longest = max(studies["delay"]["delays_s"])
+    if longest > shortest:
+        raise InputError(
+            f"config key 'rendezvous.studies.delay.delays_s': {longest:g} is not allowed; must be "
+            f"at most the shortest 'sample_time_s' of 'rendezvous.phases', {shortest:g}"
+        )
+
+
+def _check_ranges(section: Config) -> None:
+    """Refuse bounds without a width, and lists of the studies that do not grow."""
+    for name, (low, high) in section.get("inference", {}).get("bounds", {}).items():
+        if low >= high:
+            raise InputError(
+                f"config key 'rendezvous.inference.bounds.{name}': [{low:g}, {high:g}] is no "
+                f"range; the first must be less than the second"
+            )
+    studies = section.get("studies")
+    if studies is None:
+        return
+    lists = {
+        f"{name}.{key}": studies[name][key]
+        for name in STUDY_PHASES
+        for key in ("horizons", "sample_times_s")
+    } | {f"passages.{key}": studies["passages"][key] for key in ("distances_m", "limits_min")}
+    for key, values in (lists | {"distance_km": studies["distance_km"]}).items():
+        if any(a >= b for a, b in pairwise(values)):
+            raise InputError(
+                f"config key 'rendezvous.studies.{key}': {values} is not allowed; must grow from "
+                f"value to value"
+            )
 
 
 def _triple(phases: list[Config], key: str) -> tuple:

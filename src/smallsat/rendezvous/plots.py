@@ -93,6 +93,9 @@ def manoeuvre(section: Config, case: str, flights: pd.DataFrame, paths: pd.DataF
         draw_cone(dock, axis, given.cone_angles[2], given.port, 1.1 * limit, alpha)
         dock.plot(given.port * axis[1], given.port * axis[0], "k^", ms=4, zorder=4)
     dock.set_title("final approach")
+    for axes, phase in ((near, "mid"), (dock, "final")):
+        if not (flight["phase"] == phase).any():
+            axes.text(0.5, 0.5, "not reached", transform=axes.transAxes, ha="center", va="center")
     for axes in (wide, near, dock):
         axes.plot(0.0, 0.0, "ks", ms=3, zorder=4)
         axes.set_aspect("equal", adjustable="datalim")

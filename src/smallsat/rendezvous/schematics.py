@@ -101,6 +101,8 @@ def horizon(section: Config, flights: pd.DataFrame) -> Drawing:
     given = law(section, "v-bar")
     own = flights[(flights["flight"] == "v-bar") & (flights["phase"] != "far")]
     mid = own[own["phase"] == "mid"]
+    if mid.empty:
+        return _missing("Case 1 does not come to its mid range")
     now = mid.iloc[len(mid) // 3]
     states, changes = predicted(given, 1, now[STATE].to_numpy(dtype=float), float(now["time_s"]))
     step = given.sample_times[1]
@@ -148,6 +150,14 @@ def horizon(section: Config, flights: pd.DataFrame) -> Drawing:
         ],
         ignore_index=True,
     )
+
+
+def _missing(words: str) -> Drawing:
+    """What stands in the place of a figure whose flight there is not."""
+    figure, axes = subplots(figsize=(5.6, 1.5))
+    axes.set_axis_off()
+    axes.text(0.5, 0.5, words, ha="center", va="center")
+    return figure, pd.DataFrame(columns=["drawn", "time_s", *STATE, *CHANGE])
 
 
 def phases(section: Config, flights: pd.DataFrame, paths: pd.DataFrame) -> Drawing:

@@ -9,6 +9,7 @@ lie on the claimed side, *fails* if one lies on the other side, and is *undecide
 from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 import pandas as pd
@@ -31,6 +32,7 @@ ALONE = 0.5  # share of the variance from which one could speak of a range by qu
 ON_BOUNDARY = 0.05  # relative distance from the keep-out sphere
 AT_REST_M_S = 0.05  # "converging to a point"
 
+Number = TypeVar("Number", int, float)
 DELTA_V, TIME, STEPS = "delta_v_m_s", "time_s", "steps"
 WORDS = {DELTA_V: "delta-v", TIME: "time", STEPS: "actuations"}
 
@@ -115,6 +117,19 @@ class Sweep:
         if n == m:
             return f"{WORDS[quantity]}, N {n}, {t:g} to {s:g} s"
         return f"{WORDS[quantity]}, {t:g} s, N {n} to {m}"
+
+
+def tested(values: Sequence[Number], least: int, most: int | None = None) -> Sequence[Number]:
+    """Horizons or sample times that a claim names by their places in the document's list.
+
+    Raises
+    ------
+    LookupError
+        If the run has other numbers of them, so that the places mean something else.
+    """
+    if len(values) < least or (most is not None and len(values) > most):
+        raise LookupError(f"{len(values)} values where the claim speaks of {least}")
+    return values
 
 
 def median(values: np.ndarray):
@@ -402,7 +417,7 @@ def _horizons(
 def longer_horizon_saves_rendezvous(config: Config, results: Path) -> Judgement:
     """Section 4.2: delta-v and time from the first to the second horizon, each sample time."""
     sweep = Sweep(config, results, "rendezvous")
-    first, second = sweep.horizons[:2]
+    first, second = tested(sweep.horizons, 2)[:2]
     found = _horizons(sweep, first, second, (DELTA_V, TIME), sweep.sample_times)
     return _falls(found, "median change")
 
@@ -410,7 +425,7 @@ def longer_horizon_saves_rendezvous(config: Config, results: Path) -> Judgement:
 def longest_horizon_is_similar(config: Config, results: Path) -> Judgement:
     """Section 4.2: delta-v and time from the second to the third horizon stay similar."""
     sweep = Sweep(config, results, "rendezvous")
-    _, second, third = sweep.horizons
+    _, second, third = tested(sweep.horizons, 3, 3)
     found = _horizons(sweep, second, third, (DELTA_V, TIME), sweep.sample_times)
     return judgement(within(found, SIMILAR), "median change, to be within 5 %", found)
 
@@ -426,7 +441,7 @@ def longer_sampling_lowers_minimum_approach(config: Config, results: Path) -> Ju
 def _approach_shift(config: Config, results: Path) -> list[Effect]:
     # The shortest sample time is the one called infeasible at the shortest horizon.
     sweep = Sweep(config, results, "approach")
-    _, first, *_, last = sweep.sample_times
+    _, first, *_, last = tested(sweep.sample_times, 3)
     return [
         sweep.shift(DELTA_V, LOWEST, (n, first), (n, last), len(sweep.horizons))
         for n in sweep.horizons
@@ -435,7 +450,7 @@ def _approach_shift(config: Config, results: Path) -> list[Effect]:
 
 def _approach_spread(config: Config, results: Path, quantity: str) -> list[Effect]:
     sweep = Sweep(config, results, "approach")
-    _, first, *_, last = sweep.sample_times
+    _, first, *_, last = tested(sweep.sample_times, 3)
     return [
         sweep.widening(quantity, (n, first), (n, last), len(sweep.horizons)) for n in sweep.horizons
     ]
@@ -475,7 +490,7 @@ def infeasible_share(rows: pd.DataFrame, phase: str) -> np.ndarray:
 def approach_delta_v_drops_with_horizon(config: Config, results: Path) -> Judgement:
     """Section 4.3: delta-v from the first to the second horizon falls by a quarter or more."""
     sweep = Sweep(config, results, "approach")
-    first, second = sweep.horizons[:2]
+    first, second = tested(sweep.horizons, 2)[:2]
     found = _horizons(sweep, first, second, (DELTA_V,), sweep.sample_times[1:])
     return judgement(
         above(negative(found), DRAMATIC), "median change, to be a drop by a quarter or more", found
@@ -485,7 +500,7 @@ def approach_delta_v_drops_with_horizon(config: Config, results: Path) -> Judgem
 def longest_approach_horizon_is_similar(config: Config, results: Path) -> Judgement:
     """Section 4.3: delta-v and time from the second to the third horizon stay similar."""
     sweep = Sweep(config, results, "approach")
-    _, second, third = sweep.horizons
+    _, second, third = tested(sweep.horizons, 3, 3)
     found = _horizons(sweep, second, third, (DELTA_V, TIME), sweep.sample_times)
     return judgement(within(found, SIMILAR), "median change, to be within 5 %", found)
 
@@ -557,7 +572,7 @@ def docking_time_hardly_depends_on_horizon(config: Config, results: Path) -> Jud
 def short_horizon_docks_faster(config: Config, results: Path) -> Judgement:
     """Section 4.4: time to dock from the first to the second horizon, each sample time."""
     sweep = Sweep(config, results, "docking")
-    first, second = sweep.horizons[:2]
+    first, second = tested(sweep.horizons, 2)[:2]
     found = _horizons(sweep, first, second, (TIME,), sweep.sample_times)
     return _rises(found, "median change")
 
@@ -565,7 +580,7 @@ def short_horizon_docks_faster(config: Config, results: Path) -> Judgement:
 def recommended_docking_sampling_saves(config: Config, results: Path) -> Judgement:
     """Section 4.4: delta-v from the recommended sample times to the next one on either side."""
     sweep = Sweep(config, results, "docking")
-    fast, low, high, slow = sweep.sample_times
+    fast, low, high, slow = tested(sweep.sample_times, 4, 4)
     count = 2 * len(sweep.horizons)
     found = [
         sweep.change(DELTA_V, (n, inside), (n, outside), count)

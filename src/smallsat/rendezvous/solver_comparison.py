@@ -76,7 +76,9 @@ def samples(laws: dict[str, Law], starts: np.ndarray, count: int) -> list[Sample
                 for r in flown.records
                 for k in np.flatnonzero(r.phase == phase)
             ]
-            chosen = np.unique(np.linspace(0, len(steps) - 1, count).astype(int))
+            # Of a phase that no manoeuvre comes to there are none.
+            chosen = np.unique(np.linspace(0, max(len(steps) - 1, 0), count).astype(int))
+            chosen = chosen[: len(steps)]
             for state, time in (steps[k] for k in chosen):
                 room = program_room(int(record["horizons"][phase]))
                 program, _ = write_program(record, phase, state, time, room)
@@ -118,7 +120,7 @@ def compare(given: list[Sample]) -> tuple[pd.DataFrame, pd.DataFrame]:
             for name, answer in answers.items()
             if answer.solved
         }
-        saved = _cost_at_rest(sample) - min(costs.values())
+        saved = _cost_at_rest(sample) - min(costs.values(), default=np.nan)
         for name, answer in answers.items():
             control_error = cost_error = np.nan
             others = [other for other in costs if other != name]
