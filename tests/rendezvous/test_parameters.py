@@ -38,6 +38,14 @@ def refuse(config, keys, value):
         (["phases", "mid", "sample_time_s"], -20.0, "must be greater than 0"),
         (["phases", "final", "cone_angle_deg"], 90.0, "must be less than"),
         (["phases", "far", "control_bound_m_s"], 0.0, "must be greater than 0"),
+        (["phases", "final", "control_bound_m_s"], 0.5, "burn 14 s for it"),
+        (["inferred", "mean_motion_rad_s"], 0.00125, "Earth's surface"),
+        (["inference", "bounds", "plane_rate"], [2.0, 2.0], "is no range"),
+        (["studies", "delay", "delays_s"], [0.5, 5.5], "5.5 is not allowed"),
+        (["studies", "rendezvous", "sample_times_s"], [20.0, 13000.0], "must be at most"),
+        (["studies", "approach", "horizons"], [15, 5], "must grow"),
+        (["studies", "passages", "limits_min"], [100.0, 60.0], "must grow"),
+        (["studies", "distance_km"], [2.5, 0.15], "must grow"),
     ],
 )
 def test_bad_input_is_refused_in_one_line(config, keys, value, words):

@@ -1,5 +1,7 @@
 """Predicates of chapters 4 and 5 on made-up manoeuvres: each can hold, and each can fail."""
 
+from copy import deepcopy
+
 import numpy as np
 import pytest
 import synthetic
@@ -88,6 +90,44 @@ def test_sweep_claims_find_the_effect_that_is_there(root, config, tmp_path, worl
     found = judge(root, config, tmp_path, EXPECTED)
     expected = {name: outcomes[world] for name, outcomes in EXPECTED.items() if outcomes[world]}
     assert {name: found[name] for name in expected} == expected
+
+
+@pytest.mark.parametrize("times", [2, 3, 5])
+@pytest.mark.parametrize("horizons", [1, 2, 4])
+def test_sweep_claims_wait_where_a_run_has_other_lists(root, config, tmp_path, horizons, times):
+    """A claim that names places of the document's lists is undecided; none stops the judge."""
+    tables, config = {}, deepcopy(config)
+    for phase in ("rendezvous", "approach", "docking"):
+        grid = ([8 * (i + 1) for i in range(horizons)], [7.0 * (i + 1) for i in range(times)])
+        config["rendezvous"]["studies"][phase] = {"horizons": grid[0], "sample_times_s": grid[1]}
+        tables[f"{phase}_sweep"] = synthetic.sweep(phase, *grid, COUNT, *AS_SAID[phase])
+    states = synthetic.states(COUNT)
+    write(tmp_path, domain=synthetic.domain(states), initial_states=states, **tables)
+    found = judge(root, config, tmp_path, EXPECTED)
+    assert set(found) == set(EXPECTED)
+    if horizons != 3:
+        assert found["n1-30-45"] == found["n2-15-30"] == "undecided"
+    if horizons == 1:
+        assert found["n1-15-30"] == found["n2-5-15"] == "undecided"
+    if times != 4:
+        assert found["docking-recommended"] == "undecided"
+
+
+def test_claims_of_manoeuvres_that_never_dock(root, config, tmp_path):
+    """Nothing completes, so nothing is decided, and nothing stops the judge."""
+    states = synthetic.states(COUNT)
+    tables = {
+        f"{phase}_sweep": synthetic.sweep(phase, *grid, COUNT, *AS_SAID[phase]).assign(
+            completed=False
+        )
+        for phase, grid in (
+            ("rendezvous", RENDEZVOUS), ("approach", APPROACH), ("docking", DOCKING)
+        )
+    }  # fmt: skip
+    domain = synthetic.domain(states).assign(completed=False)
+    write(tmp_path, domain=domain, initial_states=states, **tables)
+    found = judge(root, config, tmp_path, {**EXPECTED, "behind-longer": (), "quadrant-alone": ()})
+    assert set(found.values()) == {"undecided"}
 
 
 def test_domain_claims(root, config, tmp_path):

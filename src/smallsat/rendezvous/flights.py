@@ -34,7 +34,8 @@ def fly_cases(section: Config, folder: Path) -> None:
     flights, paths, phases = [], [], []
     for number, (case, given) in enumerate(laws.items()):
         steps, end = flown.records[number], flown.ends[number]
-        flights.append(_flight(case, steps, end[-1], given))
+        # A manoeuvre that does not dock ends in the phase that it is in.
+        flights.append(_flight(case, steps, end[steps.phase[-1]], given))
         paths.append(_path(case, steps, given))
         for phase, name in enumerate(PHASES):
             changes = steps.impulse[steps.phase == phase]
