@@ -65,7 +65,7 @@ def test_a_value_can_be_derived_from_the_configuration(monkeypatch):
     ("binding", "component", "message"),
     [
         ({"config": "mars.step"}, "", "config key 'mars.step': not in the configuration"),
-        ({"config": "mars.rates.7"}, "", "config key 'mars.rates.7': not in the configuration"),
+        ({"config": "mars.step_s.7"}, "", "config key 'mars.step_s.7': not in the configuration"),
         ({"constant": "math:no_such"}, "", "bindings.yaml: 'math:no_such' does not exist"),
         ({"constant": "no.such:x"}, "", "bindings.yaml: 'no.such:x' does not exist"),
         ({"config": "mars.rates"}, "", "component '' picks no entry"),
@@ -77,7 +77,9 @@ def test_a_binding_that_leads_nowhere_is_named(binding, component, message):
         bound_value(row(component=component), binding, CONFIG)
 
 
-@pytest.mark.parametrize(("key", "component"), [("mars.rates", "item 4"), ("mars.inertia", "44")])
+@pytest.mark.parametrize(
+    ("key", "component"), [("mars.rates", "item 4"), ("mars.inertia", "44"), ("mars.rates.7", "")]
+)
 def test_an_entry_beyond_the_list_feeds_nothing(key, component):
     """A what-if run may have a shorter list: the printed entry then agrees with no value."""
     binding = {"config": key}

@@ -21,7 +21,7 @@ def bound_value(row: Mapping[str, str], binding: Mapping[str, Any], config: Conf
     component picks one: ``item 3``, ``min``/``max``, ``x``, ``2``, ``23`` (row 2, column 3).
     """
     if "config" in binding:
-        value: Any = lookup(config, binding["config"])
+        value: Any = _configured(binding["config"], config)
     elif "derived" in binding:
         value = resolve(binding["derived"], "bindings.yaml")(config)
     else:
@@ -31,6 +31,19 @@ def bound_value(row: Mapping[str, str], binding: Mapping[str, Any], config: Conf
     if isinstance(value, list | tuple | np.ndarray):
         value = _component(np.asarray(value), row["component"] or row["case"], row["id"])
     return float(value)
+
+
+def _configured(key: str, config: Config) -> Any:
+    """The value of a key; of an entry beyond the end of a list, not a number.
+
+    A what-if run may have a shorter list: then the printed entry feeds nothing.
+    """
+    above, _, place = key.rpartition(".")
+    if place.isdecimal():
+        entries = lookup(config, above)
+        if isinstance(entries, list) and int(place) >= len(entries):
+            return nan
+    return lookup(config, key)
 
 
 def binding_name(binding: Mapping[str, Any]) -> str:
