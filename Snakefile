@@ -14,6 +14,7 @@ from pathlib import Path
 from smallsat.errors import InputError
 from smallsat.evidence.ledger import read_artefacts, read_ledger
 from smallsat.isolation import isolate
+from smallsat.racing.parameters import parameters as racing_parameters
 from smallsat.run import read_run
 from smallsat.sources import source_files
 from smallsat.strict_yaml import read_yaml

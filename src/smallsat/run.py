@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from smallsat.config import Config, default_config, overlaid_config, run_folder, schema_of
+from smallsat.mars.parameters import check as check_mars
 from smallsat.racing.parameters import parameters as check_racing
 from smallsat.racing.parameters import with_absolute_course_files
 from smallsat.rendezvous.parameters import check as check_rendezvous
@@ -58,6 +59,7 @@ def checked(config: Config) -> Config:
         Naming the first key that does not do, its value and what is allowed.
     """
     config = with_absolute_course_files(config)
+    check_mars(config["mars"])
     check_slew(config["slew"])
     check_racing(config["racing"])
     check_rendezvous(config["rendezvous"])
