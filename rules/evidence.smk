@@ -12,6 +12,8 @@ for study in STUDIES:
                 project(f"data/published/{study}/{name}.yaml")
                 for name in ("rules", "bindings", "errata", "claims")
             ],
+            # Some proofs compare captions.
+            artefacts=project("data/published/artefacts.csv"),
             # The judge loads a study's proofs and predicates by name.
             sources=sources("smallsat.evidence.__main__", *named_modules(study)),
             results=STUDY_RESULTS[study],
