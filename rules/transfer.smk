@@ -32,6 +32,13 @@ CASE_FILES = {
 }
 
 
+# Cases of ours that nothing solved.
+UNSOLVED = {
+    name: f"{TRANSFER}/{name}-not-converged.csv"
+    for name in ("indirect", "converged", "continuous", "multistart", "collocation")
+}
+
+
 for experiment in ("indirect", "converged", "continuous"):
 
     rule:
@@ -41,6 +48,7 @@ for experiment in ("indirect", "converged", "continuous"):
             sources("smallsat.transfer.solve"),
         output:
             CASE_FILES[experiment],
+            UNSOLVED[experiment],
         log:
             f"logs/transfer/{experiment}.log",
         benchmark:
@@ -61,6 +69,7 @@ rule transfer_multistart:
     output:
         CASE_FILES["multistart"],
         f"{TRANSFER}/multistart-starts.csv",
+        UNSOLVED["multistart"],
     log:
         "logs/transfer/multistart.log",
     benchmark:
@@ -128,6 +137,7 @@ rule transfer_collocation:
     output:
         f"{TRANSFER}/collocation.csv",
         f"{TRANSFER}/collocation-seconds.csv",
+        UNSOLVED["collocation"],
     log:
         "logs/transfer/collocation.log",
     benchmark:
@@ -148,6 +158,7 @@ rule transfer_observations:
             CASE_FILES[name]
             for name in ("indirect", "as-published", "converged", "multistart", "continuous")
         ],
+        unsolved=UNSOLVED.values(),
         ledger=project("data/published/values.csv"),
     output:
         f"{TRANSFER}/observations.csv",

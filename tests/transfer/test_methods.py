@@ -1,14 +1,19 @@
 """Indirect and direct solutions against each other, another integrator, and known bounds."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from smallsat.optimal_control.collocation import Collocation
 from smallsat.optimal_control.nonlinear_program import IpoptSolver
 from smallsat.transfer import beyond
 from smallsat.transfer.direct import Case, control_history, fitted_guess, shooting_program
-from smallsat.transfer.indirect import condition_error, fly_extremal, solve_extremal
+from smallsat.transfer.extremals import Found, find_extremals
+from smallsat.transfer.indirect import condition_error, fly_extremal
 from smallsat.transfer.problem import TransferProblem
 from smallsat.transfer.trajectory import boundary_error, fly
+from smallsat.transfer.units import canonical, units_of
 
 
 @pytest.fixture(scope="module")
@@ -16,9 +21,17 @@ def problem(config):
     return TransferProblem.from_config(config["transfer"])
 
 
+def extremals(problem, config, intervals=(1,)):
+    """Solutions by number of intervals, in canonical units."""
+    guess = config["transfer"]["guess"]
+    found = find_extremals(canonical(problem), units_of(problem), intervals, guess, 192)
+    assert all(isinstance(result, Found) for result in found.values()), found
+    return {count: result.extremal for count, result in found.items()}
+
+
 @pytest.fixture(scope="module")
 def extremal(problem, config):
-    return solve_extremal(problem, 1, config["transfer"]["guess"], 192)
+    return extremals(problem, config)[1]
 
 
 def test_extremal_meets_its_conditions_with_another_integrator(problem, extremal):
@@ -34,10 +47,89 @@ def test_hamiltonian_vanishes_along_the_extremal(problem, extremal):
 
 
 def test_indirect_collocation_agrees(problem, extremal):
-    """Another method of solution (solve_bvp): the same final time to 1e-7."""
-    row = beyond.indirect_collocation(problem, np.array([-1.0, 0.0, -0.5, 1.0, 0.5])).iloc[0]
-    assert row["converged"]
-    assert row["final_time"] == pytest.approx(extremal.final_time, abs=1e-7)
+    """Another method of solution (solve_bvp) from a rough guess: the same final time to 1e-7."""
+    table = fly_extremal(problem, extremal, 481)[1]
+    solution, _ = beyond.indirect_collocation(problem, table, rough=True)
+    assert solution.success
+    assert solution.p[0] == pytest.approx(extremal.final_time, abs=1e-7)
+
+
+OTHERS = [
+    {"thrust": 0.07},
+    {"thrust": 0.2},
+    {"thrust": 0.281},
+    {"final_radius": 0.7},
+    {"final_radius": 2.0},
+    {"final_radius": 3.0},
+    {"thrust": 0.04, "final_radius": 0.6},
+    {"exhaust_speed": 1.0},
+]
+
+
+@pytest.mark.parametrize("changes", OTHERS)
+def test_other_transfers_are_solved_for_every_number_of_intervals(problem, config, changes):
+    """One extremal for all K (final times to 1e-8), its conditions met in another integrator."""
+    other = replace(problem, **changes)
+    found = extremals(other, config, (1, 3, 8))
+    times = [one.final_time for one in found.values()]
+    assert np.ptp(times) < 1e-8
+    for one in found.values():
+        assert condition_error(other, fly_extremal(other, one, 3)[0]) < 1e-8
+        assert other.final_mass(one.final_time) > 0.0
+
+
+@pytest.mark.parametrize("changes", OTHERS)
+def test_direct_collocation_from_a_rough_guess_finds_no_faster_transfer(problem, config, changes):
+    """Direct collocation, which knows no costate and starts elsewhere, ends at the same time (1e-5).
+
+    On 160 intervals of order 8; the mesh's error is what is left.
+    """
+    other = replace(problem, **changes)
+    found = extremals(other, config)[1]
+    mesh = Collocation(160, 4, "legendre")
+    table = fly_extremal(other, found, 481)[1]
+    solution, _ = beyond.direct_collocation(other, table, mesh, rough=True)
+    assert solution.converged
+    assert solution.objective == pytest.approx(found.final_time, abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("length", "mu", "mass"), [(2.0, 4.0, 3.0), (149.6e9, 1.32712e20, 1000.0), (0.1, 0.5, 1e-3)]
+)
+def test_units_do_not_matter(problem, config, extremal, length, mu, mass):
+    """The same transfer in other units takes the same time in units of sqrt(length^3 / mu)."""
+    time = np.sqrt(length**3 / mu)
+    other = TransferProblem(
+        mu=mu,
+        thrust=problem.thrust * mass * mu / length**2,
+        exhaust_speed=problem.exhaust_speed * length / time,
+        initial_radius=length,
+        final_radius=problem.final_radius * length,
+        initial_mass=mass,
+    )
+    assert units_of(other).time == pytest.approx(time, rel=1e-14)
+    found = extremals(other, config, (1, 2))
+    for one in found.values():
+        assert one.final_time == pytest.approx(extremal.final_time, rel=1e-9)
+
+
+def test_time_falls_with_thrust_and_rises_with_distance(problem, config):
+    """More thrust is never slower, and a farther orbit never nearer in time."""
+    by_thrust = [
+        extremals(replace(problem, thrust=thrust), config)[1].final_time
+        for thrust in (0.05, 0.1, 0.2, 0.4)
+    ]
+    outwards = [
+        extremals(replace(problem, final_radius=radius), config)[1].final_time
+        for radius in (1.01, 1.2, 2.5, 4.0)
+    ]
+    inwards = [
+        extremals(replace(problem, final_radius=radius), config)[1].final_time
+        for radius in (0.99, 0.8, 0.6, 0.5)
+    ]
+    assert np.all(np.diff(by_thrust) < 0.0)
+    assert np.all(np.diff(outwards) > 0.0)
+    assert np.all(np.diff(inwards) > 0.0)
 
 
 def _solve(problem, case, extremal, **options):

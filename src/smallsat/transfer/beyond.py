@@ -2,6 +2,9 @@
 
 import time
 import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import casadi as ca
@@ -10,16 +13,33 @@ import pandas as pd
 from scipy.integrate import solve_bvp
 from scipy.interpolate import BarycentricInterpolator
 
+from smallsat.evidence.not_converged import NotConverged
 from smallsat.optimal_control.collocation import (
     Collocation,
     collocation_control,
     collocation_guess,
     collocation_program,
 )
-from smallsat.optimal_control.nonlinear_program import IpoptSolver
+from smallsat.optimal_control.nonlinear_program import IpoptSolver, Solution
+from smallsat.transfer.bounds import relative_length, time_bounds
+from smallsat.transfer.experiments import NO_EXTREMAL, extremal_table
+from smallsat.transfer.extremals import SAME_TIME
 from smallsat.transfer.indirect import Extremal, condition_error, fly_extremal
-from smallsat.transfer.problem import STATES, TransferProblem
+from smallsat.transfer.problem import COSTATES, STATES, TransferProblem
 from smallsat.transfer.trajectory import ControlHistory, boundary_error, fly
+from smallsat.transfer.units import canonical, units_of
+
+Row = dict[str, Any]
+COLUMNS = [
+    "method",
+    "intervals",
+    "degree",
+    "final_time",
+    "converged",
+    "iterations",
+    "residual",
+    "seconds",
+]
 
 MESHES = (
     Collocation(20, 3, "radau"),
@@ -28,77 +48,121 @@ MESHES = (
     Collocation(80, 4, "legendre"),
 )
 
-
-# A rough guess that knows nothing of the solution but a plausible duration.
+# A rough guess that knows nothing of the document's transfer but a plausible duration. For another
+# transfer it is as much longer or shorter as that is.
 GUESS_TIME = 3.3
 
+# A plausible costate for indirect collocation: signs of a spiral outwards, lambda_m between the
+# initial and the final value. The document's own guess does not converge there.
+COLLOCATION_COSTATE = (-1.0, 0.0, -0.5, 1.0, 0.5)
 
-def _straight_line(problem: TransferProblem, s: np.ndarray) -> np.ndarray:
-    """States (5, n) on a straight line between the two orbits, at fractions s (n,) of the time."""
-    start = problem.initial_state
-    end = np.array(
-        [
-            problem.final_radius,
-            GUESS_TIME * problem.final_speed / problem.final_radius,
-            0.0,
-            problem.final_speed,
-            problem.final_mass(GUESS_TIME),
-        ]
-    )
-    return start[:, None] + (end - start)[:, None] * s
+# Points of the first mesh of indirect collocation, from the rough guess and from the extremal.
+ROUGH_POINTS, FINE_POINTS = 41, 481
 
 
-def direct_collocation(problem: TransferProblem) -> pd.DataFrame:
-    """Direct collocation on several meshes, each flown anew with its interpolated control.
+def collocation(config: Mapping[str, Any]) -> tuple[pd.DataFrame, list[NotConverged]]:
+    """Direct collocation on several meshes, and indirect collocation.
 
-    The guess is a straight line of states and a thrust angle that turns once.
+    Each starts from a rough guess, and where that does not converge, or ends at a slower extremal,
+    from the extremal of indirect shooting. What fails still keeps its row, without a final time.
+
+    Returns
+    -------
+    table
+        Columns method, intervals, degree, final_time, converged, iterations, residual, seconds.
+    not_converged
+        Rows of it that nothing solved.
     """
-    rows = []
-    for mesh in MESHES:
-
-        def rate(x: Any, u: Any) -> list[Any]:
-            return problem.state_rate(x, ca.sin(u), ca.cos(u))
-
-        program = collocation_program(
-            rate, problem.initial_state, problem.terminal_error, mesh, (3.0, 4.0)
-        )
-        guess = collocation_guess(
-            mesh,
-            GUESS_TIME,
-            lambda t: _straight_line(problem, np.array([t / GUESS_TIME])).ravel(),
-            lambda t: 2 * np.pi * t / GUESS_TIME,
-        )
-        solution = IpoptSolver(program).solve(guess)
-        controls = collocation_control(mesh, len(STATES), solution.variables)
-        final, _ = fly(problem, _collocated_history(mesh, controls, solution.objective))
-        rows.append(
-            {
-                "method": f"direct collocation, {mesh.points}",
-                "intervals": mesh.intervals,
-                "degree": mesh.degree,
-                "final_time": solution.objective,
-                "converged": solution.converged,
-                "iterations": solution.iterations,
-                "residual": boundary_error(problem, final),
-                "seconds": solution.seconds,
-            }
-        )
-    return pd.DataFrame(rows)
+    given = TransferProblem.from_config(config)
+    problem, unit = canonical(given), units_of(given).time
+    extremal = extremal_table(dict(config))
+    rows, missing = [], []
+    if isinstance(extremal, NotConverged):
+        unknown = replace(extremal, case="direct and indirect collocation", status=NO_EXTREMAL)
+        return pd.DataFrame(columns=COLUMNS), [unknown]
+    methods: list[Callable[..., tuple[Row, str]]] = [partial(_direct, mesh=m) for m in MESHES]
+    for solve in (*methods, _indirect):
+        tried = []
+        for name, rough in (("a rough guess", True), ("the extremal", False)):
+            row, status = solve(problem, extremal, rough=rough)
+            if row["converged"]:
+                break
+            tried.append(f"{name}: {status}")
+        else:
+            row |= {"final_time": np.nan, "residual": np.inf}
+            case = f"{row['method']}, {row['intervals']} intervals"
+            missing.append(NotConverged(case, tried[-1], np.inf, "; ".join(tried)))
+        rows.append(row | {"final_time": row["final_time"] * unit})
+    return pd.DataFrame(rows, columns=COLUMNS), missing
 
 
-def indirect_collocation(problem: TransferProblem, costate_guess: np.ndarray) -> pd.DataFrame:
-    """Indirect collocation of the costate problem with SciPy's solve_bvp.
+def direct_collocation(
+    problem: TransferProblem, extremal: pd.DataFrame, mesh: Collocation, *, rough: bool
+) -> tuple[Solution, ControlHistory]:
+    """Direct collocation on a mesh, in canonical units.
 
     Parameters
     ----------
-    problem
-        The transfer.
-    costate_guess
-        Costate (5,), constant along the guess.
+    problem, mesh
+        What is solved.
+    extremal
+        Table of `fly_extremal`; of a rough guess, its final time alone is used.
+    rough
+        Guess a straight line of states and a thrust angle that turns once, instead of the extremal.
     """
-    s = np.linspace(0.0, 1.0, 41)
-    costates = np.repeat(costate_guess[:, None], s.size, axis=1)
-    guess = np.vstack([_straight_line(problem, s), costates])
+    final_time = float(extremal["t"].iloc[-1])
+
+    def rate(x: Any, u: Any) -> list[Any]:
+        return problem.state_rate(x, ca.sin(u), ca.cos(u))
+
+    program = collocation_program(
+        rate, problem.initial_state, problem.terminal_error, mesh, time_bounds(final_time)
+    )
+    if rough:
+        duration = GUESS_TIME * relative_length(final_time)
+        guess = collocation_guess(
+            mesh,
+            duration,
+            lambda t: _straight_line(problem, duration, np.array([t / duration])).ravel(),
+            lambda t: 2 * np.pi * t / duration,
+        )
+    else:
+        angle = np.unwrap(extremal["beta"])
+        guess = collocation_guess(
+            mesh,
+            final_time,
+            lambda t: np.array([np.interp(t, extremal["t"], extremal[name]) for name in STATES]),
+            lambda t: float(np.interp(t, extremal["t"], angle)),
+        )
+    solution = IpoptSolver(program).solve(guess)
+    controls = collocation_control(mesh, len(STATES), solution.variables)
+    return solution, _collocated_history(mesh, controls, solution.objective)
+
+
+def indirect_collocation(
+    problem: TransferProblem, extremal: pd.DataFrame, *, rough: bool
+) -> tuple[Any, float]:
+    """Indirect collocation of the costate problem with SciPy's solve_bvp, in canonical units.
+
+    Parameters
+    ----------
+    problem, extremal, rough
+        As in `direct_collocation`; the rough guess has a constant costate.
+
+    Returns
+    -------
+    solution, seconds
+        What solve_bvp returned, and how long it took.
+    """
+    final_time = float(extremal["t"].iloc[-1])
+    s = np.linspace(0.0, 1.0, ROUGH_POINTS if rough else FINE_POINTS)
+    if rough:
+        final_time = GUESS_TIME * relative_length(final_time)
+        costates = np.repeat(np.array(COLLOCATION_COSTATE)[:, None], s.size, axis=1)
+        guess = np.vstack([_straight_line(problem, final_time, s), costates])
+    else:
+        names = (*STATES, *COSTATES)
+        guess = np.array([np.interp(s * final_time, extremal["t"], extremal[n]) for n in names])
 
     def rate(_: np.ndarray, y: np.ndarray, p: np.ndarray) -> np.ndarray:
         return p[0] * np.array(problem.extremal_rate(y[:5], y[5:]))
@@ -113,23 +177,65 @@ def indirect_collocation(problem: TransferProblem, costate_guess: np.ndarray) ->
     # A poor guess overflows inside the solver; its status says so, and is what we report.
     with np.errstate(all="ignore"), warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        solution = solve_bvp(rate, conditions, s, guess, p=[GUESS_TIME], tol=1e-8, max_nodes=20000)
-    seconds = time.perf_counter() - began
-    extremal = Extremal(solution.y[:, :1].T, float(solution.p[0]), solution.niter, 0.0, seconds)
-    residual = np.nan
-    if solution.success:
-        residual = condition_error(problem, fly_extremal(problem, extremal, 2)[0])
+        solution = solve_bvp(rate, conditions, s, guess, p=[final_time], tol=1e-8, max_nodes=20000)
+    return solution, time.perf_counter() - began
+
+
+def _direct(
+    problem: TransferProblem, extremal: pd.DataFrame, mesh: Collocation, *, rough: bool
+) -> tuple[Row, str]:
+    solution, history = direct_collocation(problem, extremal, mesh, rough=rough)
+    final, _ = fly(problem, history)
+    row = {
+        "method": f"direct collocation, {mesh.points}",
+        "intervals": mesh.intervals,
+        "degree": mesh.degree,
+        "final_time": solution.objective,
+        "converged": solution.converged,
+        "iterations": solution.iterations,
+        "residual": boundary_error(problem, final),
+        "seconds": solution.seconds,
+    }
+    return row, solution.status
+
+
+def _indirect(problem: TransferProblem, extremal: pd.DataFrame, *, rough: bool) -> tuple[Row, str]:
+    solution, seconds = indirect_collocation(problem, extremal, rough=rough)
+    final_time, best = float(solution.p[0]), float(extremal["t"].iloc[-1])
+    status = str(solution.message)
+    if solution.success and not 0.0 < final_time <= best * (1 + SAME_TIME):
+        status = f"another extremal, t_f = {final_time:.6g}"
+    converged = bool(solution.success) and 0.0 < final_time <= best * (1 + SAME_TIME)
+    residual = np.inf
+    if converged:
+        found = Extremal(solution.y[:, :1].T, final_time, solution.niter, 0.0, seconds)
+        residual = condition_error(problem, fly_extremal(problem, found, 2)[0])
     row = {
         "method": "indirect collocation, solve_bvp",
         "intervals": solution.x.size - 1,
         "degree": 3,
-        "final_time": extremal.final_time,
-        "converged": bool(solution.success),
+        "final_time": final_time,
+        "converged": converged,
         "iterations": int(solution.niter),
         "residual": residual,
         "seconds": seconds,
     }
-    return pd.DataFrame([row])
+    return row, status
+
+
+def _straight_line(problem: TransferProblem, duration: float, s: np.ndarray) -> np.ndarray:
+    """States (5, n) on a straight line between the two orbits, at fractions s (n,) of the time."""
+    start = problem.initial_state
+    end = np.array(
+        [
+            problem.final_radius,
+            duration * problem.final_speed / problem.final_radius,
+            0.0,
+            problem.final_speed,
+            problem.final_mass(duration),
+        ]
+    )
+    return start[:, None] + (end - start)[:, None] * s
 
 
 def _collocated_history(

@@ -1,5 +1,7 @@
 """Figures 5 to 64: states and control of one case."""
 
+from collections.abc import Sequence
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
@@ -8,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from smallsat.drawing.style import BLACK, CYCLE
+from smallsat.transfer.missing_plot import NOT_CONVERGED, mark_missing
 from smallsat.transfer.problem import STATES
 
 # Half of the report's text width: states and control stand side by side.
@@ -22,13 +25,15 @@ SYMBOLS = {
 STYLES = {"as published": ("-", 1.3, 1.0), "converged": ((0, (3, 1.5)), 0.9, 0.75)}
 
 
-def states_figure(flown: pd.DataFrame) -> Figure:
+def states_figure(flown: pd.DataFrame, missing: Sequence[str] = ()) -> Figure:
     """All five states against tau, interval ends as asterisks.
 
     Parameters
     ----------
     flown
         Trajectories of one case in one or two runs, columns run, segment, tau and the states.
+    missing
+        Runs that were not flown, which the figure names.
     """
     figure, axes = plt.subplots(figsize=SIZE)
     for run, path in flown.groupby("run", sort=False):
@@ -48,11 +53,11 @@ def states_figure(flown: pd.DataFrame) -> Figure:
     figure.legend(
         handles=handles, loc="outside upper center", ncols=5, handlelength=1.2, columnspacing=1
     )
-    _run_legend(figure, flown)
+    _run_legend(figure, flown, missing)
     return figure
 
 
-def control_figure(flown: pd.DataFrame) -> Figure:
+def control_figure(flown: pd.DataFrame, missing: Sequence[str] = ()) -> Figure:
     """Thrust angle in degrees, 0 to 360, against tau, interval ends as asterisks."""
     figure, axes = plt.subplots(figsize=SIZE)
     colours = {"as published": CYCLE[0], "converged": CYCLE[1]}
@@ -71,7 +76,7 @@ def control_figure(flown: pd.DataFrame) -> Figure:
         loc="outside upper center",
         handlelength=0,
     )
-    _run_legend(figure, flown, colours)
+    _run_legend(figure, flown, missing, colours)
     return figure
 
 
@@ -105,12 +110,20 @@ def _angle_axis(axes: Axes) -> None:
     axes.set_yticks(range(0, 361, 90))
 
 
-def _run_legend(figure: Figure, flown: pd.DataFrame, colours: dict[str, str] | None = None) -> None:
+def _run_legend(
+    figure: Figure,
+    flown: pd.DataFrame,
+    missing: Sequence[str],
+    colours: dict[str, str] | None = None,
+) -> None:
     """Name the runs and their final times below the axes."""
+    if flown.empty:
+        mark_missing(figure.axes[0])
     handles = []
     for run, path in flown.groupby("run", sort=False):
         style, width, _ = STYLES[str(run)]
         colour = (colours or {}).get(str(run), BLACK)
         label = f"{run}, $t_f$ = {path['t'].iloc[-1]:.5f}"
         handles.append(Line2D([], [], ls=style, lw=width, color=colour, label=label))
+    handles += [Line2D([], [], lw=0, label=f"{run}: {NOT_CONVERGED}") for run in missing]
     figure.legend(handles=handles, loc="outside lower center", fontsize=7, handlelength=2.5)

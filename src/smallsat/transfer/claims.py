@@ -9,12 +9,21 @@ from smallsat.evidence.claims import Judgement, judged
 from smallsat.results import read_table
 from smallsat.transfer.observations import degree_spread
 from smallsat.transfer.printed import printed_cases
-from smallsat.transfer.tables import final_times, read_cases
+from smallsat.transfer.tables import final_times, indirect_times, read_cases
 
 
 def _indirect(results: Path):
+    return indirect_times(read_cases(results))
+
+
+def _grid(results: Path, run: str):
+    """Final times of all cases of direct multiple shooting; a `LookupError` if one is missing."""
     cases = read_cases(results)
-    return cases[cases["method"] == "indirect"].set_index("intervals")["final_time"]
+    times = final_times(cases, run)
+    asked = cases[(cases["run"] == run) & (cases["intervals"] > 1) & (cases["method"] == "direct")]
+    if len(times) < len(asked) or times.empty:
+        raise LookupError(f"a case of the {run} run that did not converge")
+    return times
 
 
 def same_extremal(config: Config, results: Path) -> Judgement:
@@ -28,6 +37,8 @@ def shortest(config: Config, results: Path) -> Judgement:
     """No case beats the indirect methods."""
     cases = read_cases(results)
     feasible = cases[(cases["residual"] < 1e-9) & (cases["method"] == "direct")]
+    if feasible.empty:
+        raise LookupError("no feasible direct solution")
     margin = float(feasible["final_time"].min() - _indirect(results).min())
     return judged(
         margin > -1e-9,
@@ -43,12 +54,16 @@ def continuous_control(config: Config, results: Path) -> Judgement:
         first = group.groupby("segment")["beta"].first().to_numpy()[1:]
         last = group.groupby("segment")["beta"].last().to_numpy()[:-1]
         jumps.append(np.max(np.abs(np.angle(np.exp(1j * (first - last))))))
+    if not jumps:
+        raise LookupError("no solution of indirect multiple shooting")
     return judged(max(jumps) < 1e-8, f"largest jump at an interval end {max(jumps):.1e} rad")
 
 
 def no_gain_from_intervals(config: Config, results: Path) -> Judgement:
     """For degree 2 more intervals do not give a better solution."""
-    times = final_times(read_cases(results), "converged").loc[2]
+    times = _grid(results, "converged").loc[2]
+    if len(times) < 2:
+        raise LookupError("fewer than two numbers of intervals")
     gaps = times - _indirect(results).min()
     falling = bool((times.diff().iloc[1:] < -1e-9).all())
     listed = ", ".join(f"K = {k}: {gap:.1e}" for k, gap in gaps.items())
@@ -57,6 +72,8 @@ def no_gain_from_intervals(config: Config, results: Path) -> Judgement:
 
 def degree_negligible(config: Config, results: Path) -> Judgement:
     """The degree hardly matters for the final time of multiple shooting."""
+    if _grid(results, "converged").index.get_level_values("degree").nunique() < 2:
+        raise LookupError("fewer than two degrees")
     spread = degree_spread(read_cases(results), "converged")
     listed = ", ".join(f"K = {k}: {value:.4f} %" for k, value in spread.items())
     return judged(
@@ -68,8 +85,10 @@ def degree_negligible(config: Config, results: Path) -> Judgement:
 
 def closer_with_intervals(config: Config, results: Path) -> Judgement:
     """More intervals come closer to the indirect optimum."""
-    times = final_times(read_cases(results), "converged").unstack("intervals")
+    times = _grid(results, "converged").unstack("intervals")
     steps = times.diff(axis=1).iloc[:, 1:]
+    if not steps.size:
+        raise LookupError("fewer than two numbers of intervals")
     return judged(
         bool((steps < 0).to_numpy().all()),
         f"t_f falls in {int((steps < 0).to_numpy().sum())} of {steps.size} doublings of K",
@@ -98,7 +117,7 @@ def single_polynomial_cost(config: Config, results: Path) -> Judgement:
     """One polynomial of degree 6 costs 3.5 % in time against the indirect optimum."""
     cases = read_cases(results)
     best = cases[(cases["intervals"] == 1) & (cases["run"] == "converged")].set_index("degree")
-    time = float(best["final_time"].to_dict()[6])
+    time = float(best["final_time"].dropna().to_dict()[6])
     excess = 100 * (time / float(_indirect(results).min()) - 1)
     return judged(
         excess > 3.4,
@@ -109,7 +128,7 @@ def single_polynomial_cost(config: Config, results: Path) -> Judgement:
 
 def direct_worse_than_indirect(config: Config, results: Path) -> Judgement:
     """Both indirect methods give a better solution than direct multiple shooting."""
-    gap = final_times(read_cases(results), "converged") - _indirect(results).min()
+    gap = _grid(results, "converged") - _indirect(results).min()
     return judged(
         bool((gap > 0).all()),
         f"converged direct cases are {gap.min():.1e} to {gap.max():.1e} slower",
@@ -118,8 +137,7 @@ def direct_worse_than_indirect(config: Config, results: Path) -> Judgement:
 
 def continuity_helps(config: Config, results: Path) -> Judgement:
     """A continuous control might reach the optimum in direct multiple shooting."""
-    cases = read_cases(results)
-    loss = final_times(cases, "continuous") - final_times(cases, "converged")
+    loss = _grid(results, "continuous") - _grid(results, "converged")
     return judged(
         bool((loss < 0).any()),
         f"continuity is a constraint more: it costs {loss.min():.1e} to {loss.max():.1e} in t_f",
@@ -136,6 +154,8 @@ def bounds_help(config: Config, results: Path) -> Judgement:
 def early_stopping(config: Config, results: Path) -> Judgement:
     """Our inference: the printed Table 4 holds iterates of an SQP method stopped early."""
     table = read_table(results / "early-stopping.csv")
+    if table.empty:
+        raise LookupError("none of the printed cases")
     rows = table.groupby(["degree", "intervals"])
     hits = int(rows["equal_to_printed"].any().sum())
     in_band = int(rows["in_printed_band"].any().sum())

@@ -7,6 +7,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from smallsat.drawing.style import BLACK, BLUE, CYCLE, GREEN, ORANGE, VERMILION, WIDTH
+from smallsat.transfer.bounds import relative_length
+from smallsat.transfer.missing_plot import mark_missing
 from smallsat.transfer.printed import printed_cases
 
 
@@ -148,11 +150,23 @@ def mass_above_printed(finals: pd.DataFrame) -> Figure:
     return figure
 
 
-def early_stopping_figure(table: pd.DataFrame) -> Figure:
-    """Final time of as-published runs stopped at looser tolerances, beside the printed ones."""
-    count = table["intervals"].nunique()
+def early_stopping_figure(table: pd.DataFrame, optimum: float) -> Figure:
+    """Final time of as-published runs stopped at looser tolerances, beside the printed ones.
+
+    Parameters
+    ----------
+    table
+        Of `smallsat.transfer.early_stopping.early_stopping_table`.
+    optimum
+        Final time of the indirect solution, which sets the scale; not a number if there is none.
+    """
+    count = max(1, table["intervals"].nunique())
     figure, grid = plt.subplots(1, count, figsize=(WIDTH, 3.0), sharey=True, squeeze=False)
     panels = grid[0]
+    if table.empty:
+        mark_missing(panels[0], "none of the printed cases")
+        return figure
+    scale = _scale(optimum)
     band = table["printed"].min(), table["printed"].max()
     for axes, (intervals, rows) in zip(panels, table.groupby("intervals"), strict=True):
         axes.axhspan(*band, color="#dddddd", lw=0)
@@ -167,7 +181,7 @@ def early_stopping_figure(table: pd.DataFrame) -> Figure:
             )
             hit = group[group["equal_to_printed"]]
             axes.plot(hit["tolerance"], hit["final_time"], "o", ms=5, color=colour)
-        axes.set_ylim(3.2468, 3.2525)
+        axes.set_ylim(3.2468 * scale, 3.2525 * scale)
         axes.invert_xaxis()
         axes.set_title(f"K = {intervals}")
         axes.set_xlabel("SLSQP ftol")
@@ -206,21 +220,35 @@ def continuity_figure(table: pd.DataFrame, optimum: float) -> Figure:
     return figure
 
 
-def multistart_figure(starts: pd.DataFrame) -> Figure:
-    """Final times of the converged random starts for a single polynomial, printed values marked."""
+def multistart_figure(starts: pd.DataFrame, optimum: float) -> Figure:
+    """Final times of the converged random starts for a single polynomial, printed values marked.
+
+    Parameters
+    ----------
+    starts
+        Columns degree, start, final_time, converged.
+    optimum
+        Final time of the indirect solution, which sets the scale; not a number if there is none.
+    """
     figure, axes = plt.subplots(figsize=(WIDTH, 2.8))
     printed = printed_cases("Table 3")["terminal time"]
-    for degree, group in starts[starts["converged"]].groupby("degree"):
+    for degree, group in starts[starts["converged"].astype(bool)].groupby("degree"):
         axes.plot(group["final_time"], np.full(len(group), degree), "|", color=BLUE, ms=10)
     axes.plot([], [], "|", color=BLUE, ms=10, label="a random start")
     degrees = printed.index.get_level_values("degree")
     axes.plot(printed, degrees, "D", color=VERMILION, ms=5, mfc="none", label="printed")
-    axes.set_xlim(3.2, 4.6)
+    scale = _scale(optimum)
+    axes.set_xlim(3.2 * scale, 4.6 * scale)
     axes.set_xlabel("$t_f$")
     axes.set_ylabel("degree N")
     axes.set_yticks(sorted(starts["degree"].unique()))
     axes.legend()
     return figure
+
+
+def _scale(optimum: float) -> float:
+    # The document's own transfer where there is no optimum.
+    return relative_length(optimum) if np.isfinite(optimum) else 1.0
 
 
 def _group_colours() -> dict[str, str]:
@@ -240,7 +268,11 @@ def _surfaces(
         axes = figure.add_subplot(1, 2, place, projection="3d")
         grid = table.pivot(index="degree", columns="intervals", values=column)
         x, y = np.meshgrid(grid.columns, grid.index)
-        height = grid.to_numpy() * (scale or {}).get(column, 1.0)
+        height = grid.to_numpy(dtype=float) * (scale or {}).get(column, 1.0)
+        if min(height.shape, default=0) < 2 or np.isnan(height).all():
+            mark_missing(axes, "too few cases for a surface")
+            axes.set_axis_off()
+            continue
         axes.plot_surface(y, x, height, cmap="viridis", alpha=0.85, edgecolor="#333333", lw=0.4)
         axes.set_xlabel("N", labelpad=-4)
         axes.set_ylabel("K", labelpad=-4)

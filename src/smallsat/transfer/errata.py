@@ -8,8 +8,9 @@ import numpy as np
 
 from smallsat.config import Config
 from smallsat.evidence.errata import Proof
+from smallsat.evidence.not_converged import NotConverged
 from smallsat.results import read_table
-from smallsat.transfer.indirect import solve_extremal
+from smallsat.transfer.extremals import find_extremals
 from smallsat.transfer.observations import degree_spread
 from smallsat.transfer.printed import (
     contradictions,
@@ -19,13 +20,18 @@ from smallsat.transfer.printed import (
 )
 from smallsat.transfer.problem import TransferProblem
 from smallsat.transfer.tables import PrintedCase, read_cases, select
+from smallsat.transfer.units import canonical, units_of
 
 
 def _solve(config: Config, **changes: float) -> tuple[float, float]:
     study = config["transfer"]
     problem = replace(TransferProblem.from_config(study), **changes)
-    extremal = solve_extremal(problem, 1, study["guess"], study["numerics"]["steps"]["indirect"])
-    return extremal.final_time, problem.final_mass(extremal.final_time)
+    units, steps = units_of(problem), study["numerics"]["steps"]["indirect"]
+    found = find_extremals(canonical(problem), units, (1,), study["guess"], steps)[1]
+    if isinstance(found, NotConverged):
+        raise LookupError(found.status)
+    final_time = found.extremal.final_time * units.time
+    return final_time, problem.final_mass(final_time)
 
 
 def exhaust_speed(config: Config, results: Path) -> Proof:
@@ -123,6 +129,8 @@ def extra_digit_k16(config: Config, results: Path) -> Proof:
     table = printed_value(f"transfer/table-2/terminal-time/{case}")
     row = select(read_cases(results), PrintedCase("indirect", 0, 16), "as published").iloc[0]
     ours = float(row["final_time"])
+    if not row["converged"]:
+        raise LookupError("a case that did not converge")
     return Proof(
         holds=abs(prose - table) > 5e-6 and abs(ours - table) <= 5e-6 and row["residual"] < 1e-9,
         as_printed=f"{prose:.6f}",
@@ -142,6 +150,8 @@ def effect_of_degree(config: Config, results: Path) -> Proof:
     times = printed_cases("Table 4")["terminal time"].groupby("intervals")
     own = 100 * (times.max() - times.min()) / times.min()
     ours = degree_spread(read_cases(results), "converged")
+    if ours.isna().any():
+        raise LookupError("a case that did not converge")
     listed = ", ".join(f"K = {k}: {value:.4f} %" for k, value in own.items())
     return Proof(
         holds=bool(own.max() > 2 * printed),
@@ -212,6 +222,8 @@ def nesting(config: Config, results: Path) -> Proof:
     printed = printed_cases("Table 4")["terminal time"].droplevel("method").unstack("intervals")
     cases = read_cases(results)
     ours = cases[(cases["run"] == "converged") & (cases["intervals"] > 1)]
+    if not ours["converged"].all():
+        raise LookupError("a case that did not converge")
     converged = ours.pivot(index="degree", columns="intervals", values="final_time")
     rises = [
         f"K = {k}, N = {n} to {n + 1}: {printed.loc[n, k]:.5f} to {printed.loc[n + 1, k]:.5f}"
@@ -283,6 +295,8 @@ def hamiltonian_exhaust(config: Config, results: Path) -> Proof:
     """The Hamiltonian vanishes along the extremal with v_e in the mass term, not with v_theta."""
     flown = read_table(results / "indirect.parquet")
     flown = flown[flown["intervals"] == 1]
+    if flown.empty:
+        raise LookupError("no solution of indirect shooting")
     problem = TransferProblem.from_config(config["transfer"])
     correct = flown["hamiltonian"].abs().max()
     mass_term = flown["lambda_m"] * problem.thrust

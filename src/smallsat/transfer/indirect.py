@@ -14,6 +14,7 @@ from scipy.optimize import least_squares
 from smallsat.optimal_control.runge_kutta import integrate, step_function
 from smallsat.transfer.problem import COSTATES, STATES, TransferProblem
 from smallsat.transfer.trajectory import error_magnitude
+from smallsat.transfer.units import Units
 
 
 @dataclass(frozen=True)
@@ -42,58 +43,85 @@ class Extremal:
 
 
 class ConvergenceError(Exception):
-    """A method that did not converge where the study rests on it."""
+    """Shooting that did not converge; the message says how it ended.
+
+    Attributes
+    ----------
+    residual
+        Largest residual at the end; not a number where there was no flight.
+    """
+
+    def __init__(self, message: str, residual: float = np.nan):
+        super().__init__(message)
+        self.residual = residual
 
 
-def solve_extremal(
-    problem: TransferProblem, intervals: int, guess: Mapping[str, Any], steps: int
-) -> Extremal:
-    """Solve the necessary conditions by (multiple) shooting from the document's guess.
-
-    Unknowns are the initial costate, state and costate at interior nodes, and the final time
-    (sections 3.1, 3.2). A trust-region least-squares method with the exact Jacobian is used: it
-    converges from the document's guess for every number of intervals.
+def published_start(intervals: int, guess: Mapping[str, Any], units: Units) -> np.ndarray:
+    """The document's guess of the unknowns (10 K - 4,) in canonical units (Listings 1, 4).
 
     Parameters
     ----------
-    problem
-        The transfer.
     intervals
         K; 1 for single shooting.
     guess
         ``initial_costate``, ``interior_state`` and ``indirect_final_time`` of the configuration.
+    units
+        Canonical units of the configuration's problem.
+    """
+    costate = np.array([guess["initial_costate"][name] for name in COSTATES]) / units.costate
+    interior = np.concatenate([guess["interior_state"] / units.state, costate])
+    time_guess = guess["indirect_final_time"] / units.time
+    return np.concatenate([costate, *[interior] * (intervals - 1), [time_guess]])
+
+
+def solve_extremal(
+    problem: TransferProblem, intervals: int, start: np.ndarray, steps: int
+) -> Extremal:
+    """Solve the necessary conditions by (multiple) shooting.
+
+    Unknowns are the initial costate, state and costate at interior nodes, and the final time
+    (sections 3.1, 3.2). A trust-region least-squares method with the exact Jacobian is used: for
+    the document's problem it converges from the document's guess for every number of intervals.
+
+    Parameters
+    ----------
+    problem
+        The transfer, in canonical units.
+    intervals
+        K; 1 for single shooting.
+    start
+        Unknowns (10 K - 4,) to start from.
     steps
         Integration steps over the whole flight.
 
     Raises
     ------
     ConvergenceError
-        If the residual does not vanish or the final time is not positive.
+        If the residual does not vanish, the final time is not positive, or no mass is left then.
     """
     residual, jacobian = _shooting_functions(problem, intervals, steps)
-    costate = [guess["initial_costate"][name] for name in COSTATES]
-    interior = [guess["interior_state"]] * 5 + costate
-    start = np.array(costate + interior * (intervals - 1) + [guess["indirect_final_time"]])
-
     began = time.perf_counter()
-    result = least_squares(
-        lambda z: residual(z).full().ravel(),
-        start,
-        jac=lambda z: jacobian(z).full(),
-        method="trf",
-        xtol=1e-15,
-        ftol=1e-15,
-        gtol=1e-15,
-        max_nfev=2000,
-    )
+    try:
+        result = least_squares(
+            lambda z: residual(z).full().ravel(),
+            start,
+            jac=lambda z: jacobian(z).full(),
+            method="trf",
+            xtol=1e-15,
+            ftol=1e-15,
+            gtol=1e-15,
+            max_nfev=2000,
+        )
+    except (ValueError, np.linalg.LinAlgError) as failure:
+        # A start that cannot be flown has residuals that are no numbers.
+        raise ConvergenceError(str(failure).strip().rstrip(".").lower()) from None
     seconds = time.perf_counter() - began
     error = float(np.max(np.abs(result.fun)))
-    if error > 1e-9 or result.x[-1] <= 0:
-        raise ConvergenceError(
-            f"indirect shooting, K = {intervals}: residual {error:.1e}, t_f = {result.x[-1]:.4f}"
-        )
+    final_time = float(result.x[-1])
+    if error > 1e-9 or not 0.0 < final_time < problem.longest_time:
+        raise ConvergenceError(f"residual {error:.1e} at t_f = {final_time:.4f}", error)
     nodes = np.concatenate([problem.initial_state, result.x[:-1]]).reshape(intervals, 10)
-    return Extremal(nodes, float(result.x[-1]), int(result.nfev), error, seconds)
+    return Extremal(nodes, final_time, int(result.nfev), error, seconds)
 
 
 def fly_extremal(

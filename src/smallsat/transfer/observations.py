@@ -90,11 +90,13 @@ def _derived(rows: Sequence[Row], cases: pd.DataFrame) -> Iterator[Observation]:
         longer = 100 * (single["final_time"] / indirect["final_time"] - 1)
         loss = 100 * (1 - single["final_mass"] / indirect["final_mass"])
         increase = f"{prefix}5/terminal-time-increase-over-indirect/{case}-{degree}"
-        yield Observation(increase, longer, RUNS[0])
+        note = _note(bool(single["converged"] and indirect["converged"]))
+        yield Observation(increase, longer, RUNS[0], note=note)
         if degree == 6:
-            yield Observation(f"{prefix}3-1/mass-difference-from-indirect/{case}-6", loss, RUNS[0])
+            difference = f"{prefix}3-1/mass-difference-from-indirect/{case}-6"
+            yield Observation(difference, loss, RUNS[0], note=note)
             change = f"{prefix}5/terminal-mass-change-from-indirect/{case}-6"
-            yield Observation(change, -loss, RUNS[0])
+            yield Observation(change, -loss, RUNS[0], note=note)
 
     # The bounds of the first run are lost, so its change can only be recomputed from print.
     printed = {row["id"]: row["printed"] for row in rows}
@@ -109,15 +111,24 @@ def _derived(rows: Sequence[Row], cases: pd.DataFrame) -> Iterator[Observation]:
         run="from the printed values",
     )
 
+    effect = float(degree_spread(cases, RUNS[1]).max(skipna=False))
     yield Observation(
         f"{prefix}4-1/effect-of-degree-on-terminal-time/direct-multiple-shooting",
-        float(degree_spread(cases, RUNS[1]).max()),
+        effect,
         RUNS[1],
+        note=_note(effect == effect),
     )
 
 
+def _note(converged: bool) -> str:
+    return "" if converged else "not converged: a case that it rests on"
+
+
 def degree_spread(cases: pd.DataFrame, run: str) -> pd.Series:
-    """Spread of the final time over the degrees, in percent of the shortest, for each K."""
+    """Spread of the final time over the degrees, in percent of the shortest, for each K.
+
+    Not a number for a K of which a case did not converge.
+    """
     times = cases[
         (cases["method"] == "direct")
         & (cases["run"] == run)
@@ -125,4 +136,5 @@ def degree_spread(cases: pd.DataFrame, run: str) -> pd.Series:
         & cases["residual"].notna()
     ]
     groups = times.groupby("intervals")["final_time"]
-    return 100 * (groups.max() - groups.min()) / groups.min()
+    spread = 100 * (groups.max() - groups.min()) / groups.min()
+    return spread.where(groups.count() == groups.size())

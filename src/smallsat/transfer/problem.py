@@ -94,15 +94,16 @@ class TransferProblem:
         rate = self.extremal_rate(state, costate)
         return sum(costate[i] * rate[i] for i in range(5))
 
-    def extremal_rate(self, state: Any, costate: Any) -> list[Any]:
+    def extremal_rate(self, state: Any, costate: Any, smoothing: Any = 0.0) -> list[Any]:
         """Time derivative of state and costate along an extremal (equations 29-34).
 
         The thrust points along the velocity costate (primer vector), which maximises the
-        Hamiltonian for a final mass to be maximised.
+        Hamiltonian for a final mass to be maximised. With a ``smoothing`` the thrust fades where
+        the primer vector is not long against it, instead of turning about at once.
         """
         r, _, v_r, v_theta, m = (state[i] for i in range(5))
         l_r, l_theta, l_vr, l_vtheta, _ = (costate[i] for i in range(5))
-        primer = (l_vr**2 + l_vtheta**2) ** 0.5
+        primer = (l_vr**2 + l_vtheta**2 + smoothing**2) ** 0.5
         costate_rate = [
             l_theta * v_theta / r**2
             + l_vr * (v_theta**2 / r**2 - 2 * self.mu / r**3)

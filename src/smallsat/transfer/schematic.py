@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from smallsat.drawing.style import BLACK, BLUE, GREEN, ORANGE, VERMILION
+from smallsat.transfer.missing_plot import mark_missing
 from smallsat.transfer.problem import TransferProblem
 
 SIZE = (3.3, 3.0)
@@ -26,7 +27,7 @@ def orbit_figure(problem: TransferProblem, path: pd.DataFrame) -> tuple[Figure, 
     axes.annotate("P, m", (x.iloc[here], y.iloc[here]), (6, 4), textcoords="offset points")
     axes.plot(0, 0, "o", color=ORANGE, ms=9)
     axes.annotate("O (Sun)", (0, 0), (-8, -14), textcoords="offset points")
-    reach = 1.25 * problem.final_radius
+    reach = 1.25 * max(problem.initial_radius, problem.final_radius)
     for tip, name in (((reach, 0), "$e_x$"), ((0, reach), "$e_y$")):
         _arrow(axes, (0, 0), tip, "#666666", name)
     axes.set_xlim(-reach, 1.15 * reach)
@@ -94,6 +95,13 @@ def force_figure(problem: TransferProblem, state: pd.Series) -> tuple[Figure, pd
     axes.set_xlim(-0.6 * gravity, 0.7 * gravity)
     axes.set_ylim(-1.15 * gravity, 0.6 * gravity)
     return figure, _vector_table(vectors)
+
+
+def missing_figure() -> tuple[Figure, pd.DataFrame]:
+    """In place of any of these, where there is no optimal path to draw from."""
+    figure, axes = _plane()
+    mark_missing(axes)
+    return figure, pd.DataFrame(columns=["x", "y"])
 
 
 def _plane() -> tuple[Figure, Axes]:

@@ -4,17 +4,11 @@ import argparse
 import json
 from pathlib import Path
 
-import numpy as np
-import pandas as pd
-
 from smallsat.errors import report_input_errors
+from smallsat.evidence.not_converged import NotConverged, not_converged_table
 from smallsat.results import write_table
 from smallsat.transfer import beyond, experiments
-from smallsat.transfer.problem import TransferProblem
-
-# A plausible costate for indirect collocation: signs of a spiral outwards, lambda_m between the
-# initial and the final value. The document's own guess does not converge there.
-COLLOCATION_COSTATE = (-1.0, 0.0, -0.5, 1.0, 0.5)
+from smallsat.transfer.experiments import Solved
 
 
 def main() -> None:
@@ -43,44 +37,44 @@ def main() -> None:
     run(arguments)
 
 
-def _write(results: Path, name: str, cases: pd.DataFrame, trajectories: pd.DataFrame) -> None:
+def _write(results: Path, name: str, solved: Solved) -> None:
     # Seconds go to a file of their own: everything else is the same in every build.
     keys = ["method", "run", "degree", "intervals"]
-    timed = cases[cases["residual"].notna()]
+    timed = solved.cases[solved.cases["residual"].notna()]
     write_table(timed[[*keys, "seconds"]], results / f"{name}-seconds.csv")
-    write_table(cases.drop(columns="seconds"), results / f"{name}.csv")
-    write_table(trajectories, results / f"{name}.parquet")
+    write_table(solved.cases.drop(columns="seconds"), results / f"{name}.csv")
+    write_table(solved.trajectories, results / f"{name}.parquet")
+
+
+def _write_missing(results: Path, name: str, cases: list[NotConverged]) -> None:
+    write_table(not_converged_table(cases), results / f"{name}-not-converged.csv")
 
 
 def _experiment(arguments: argparse.Namespace) -> None:
-    experiment = getattr(experiments, arguments.command)
-    _write(arguments.results, arguments.command, *experiment(arguments.config))
+    solved = getattr(experiments, arguments.command)(arguments.config)
+    _write(arguments.results, arguments.command, solved)
+    _write_missing(arguments.results, arguments.command, solved.not_converged)
 
 
 def _as_published(arguments: argparse.Namespace) -> None:
-    cases, trajectories = experiments.as_published(arguments.config, arguments.intervals)
-    _write(arguments.results, f"as-published-k{arguments.intervals}", cases, trajectories)
+    solved = experiments.as_published(arguments.config, arguments.intervals)
+    _write(arguments.results, f"as-published-k{arguments.intervals}", solved)
 
 
 def _multistart(arguments: argparse.Namespace) -> None:
-    cases, trajectories, starts = experiments.multistart(arguments.config)
-    _write(arguments.results, "multistart", cases, trajectories)
+    solved, starts = experiments.multistart(arguments.config)
+    _write(arguments.results, "multistart", solved)
+    _write_missing(arguments.results, "multistart", solved.not_converged)
     write_table(starts, arguments.results / "multistart-starts.csv")
 
 
 def _collocation(arguments: argparse.Namespace) -> None:
-    problem = TransferProblem.from_config(arguments.config)
-    table = pd.concat(
-        [
-            beyond.direct_collocation(problem),
-            beyond.indirect_collocation(problem, np.array(COLLOCATION_COSTATE)),
-        ],
-        ignore_index=True,
-    )
+    table, missing = beyond.collocation(arguments.config)
     write_table(
         table[["method", "intervals", "seconds"]], arguments.results / "collocation-seconds.csv"
     )
     write_table(table.drop(columns="seconds"), arguments.results / "collocation.csv")
+    _write_missing(arguments.results, "collocation", missing)
 
 
 if __name__ == "__main__":

@@ -42,6 +42,20 @@ def read_cases(results: Path) -> pd.DataFrame:
     return pd.concat(tables, ignore_index=True)
 
 
+def indirect_times(cases: pd.DataFrame) -> pd.Series:
+    """Final time of the indirect cases, by number of intervals.
+
+    Raises
+    ------
+    LookupError
+        If one of them did not converge.
+    """
+    rows = cases[cases["method"] == "indirect"].set_index("intervals")
+    if not rows["converged"].all():
+        raise LookupError("an indirect case that did not converge")
+    return rows["final_time"]
+
+
 def select(cases: pd.DataFrame, case: PrintedCase, run: str) -> pd.DataFrame:
     """Rows of one case in one run; of the as-published runs only the strict one."""
     rows = cases[
@@ -54,7 +68,10 @@ def select(cases: pd.DataFrame, case: PrintedCase, run: str) -> pd.DataFrame:
 
 
 def final_times(cases: pd.DataFrame, run: str) -> pd.Series:
-    """Final time of the direct multiple shooting cases of a run, by (degree, intervals)."""
+    """Final time of the direct multiple shooting cases of a run, by (degree, intervals).
+
+    Without the cases of ours that did not converge.
+    """
     rows = cases[(cases["method"] == "direct") & (cases["run"] == run) & (cases["intervals"] > 1)]
-    rows = rows[rows["residual"].notna()]
+    rows = rows[rows["residual"].notna() & rows["final_time"].notna()]
     return rows.set_index(["degree", "intervals"])["final_time"].sort_index()

@@ -9,6 +9,8 @@ from scipy.integrate import solve_ivp
 
 from smallsat.transfer.problem import STATES, TransferProblem
 
+COLUMNS = ("segment", "tau", "t", *STATES, "beta")
+
 # A control on one interval: thrust angle in rad at times (n,) since the start.
 Control = Callable[[np.ndarray], np.ndarray]
 
@@ -51,10 +53,15 @@ def fly(
     Returns
     -------
     state
-        Final state (5,).
+        Final state (5,); not a number where the flight takes no time, uses up all mass or breaks
+        down.
     table
-        Columns segment, tau (-1 to 1), t, the five states, beta (rad).
+        Columns segment, tau (-1 to 1), t, the five states, beta (rad); without rows if there is no
+        flight.
     """
+    no_flight = np.full(5, np.nan), pd.DataFrame(columns=COLUMNS, dtype=float)
+    if not 0.0 < history.final_time < problem.longest_time:
+        return no_flight
     state = problem.initial_state
     frames = []
     for segment, control in enumerate(history.controls):
@@ -65,12 +72,12 @@ def fly(
             return problem.state_rate(x, np.sin(beta), np.cos(beta))
 
         grid = np.linspace(start, end, samples) if samples else None
-        # An interval that has shrunk to nothing is passed over.
-        if end > start:
-            solution = solve_ivp(
-                rate, (start, end), state, method="LSODA", t_eval=grid, rtol=1e-12, atol=1e-13
-            )
-            state = solution.y[:, -1]
+        solution = solve_ivp(
+            rate, (start, end), state, method="LSODA", t_eval=grid, rtol=1e-12, atol=1e-13
+        )
+        state = solution.y[:, -1]
+        if not (solution.success and np.isfinite(state).all()):
+            return no_flight
         if samples and grid is not None:
             table = pd.DataFrame(solution.y.T, columns=list(STATES))
             table.insert(0, "t", grid)
@@ -78,7 +85,7 @@ def fly(
             table.insert(0, "segment", segment)
             table["beta"] = control(grid)
             frames.append(table)
-    return state, pd.concat(frames, ignore_index=True) if frames else pd.DataFrame()
+    return state, pd.concat(frames, ignore_index=True) if frames else no_flight[1]
 
 
 def boundary_error(problem: TransferProblem, state: np.ndarray) -> float:
@@ -87,5 +94,9 @@ def boundary_error(problem: TransferProblem, state: np.ndarray) -> float:
 
 
 def error_magnitude(errors: Sequence[float] | np.ndarray) -> float:
-    """Largest of some errors, to two digits: more would be noise of the last bits."""
-    return float(f"{np.max(np.abs(errors)):.1e}")
+    """Largest of some errors, to two digits: more would be noise of the last bits.
+
+    Infinite where one is not a number: without a flight nothing is met.
+    """
+    largest = float(f"{np.max(np.abs(errors)):.1e}")
+    return largest if np.isfinite(largest) else float("inf")
