@@ -80,7 +80,7 @@ def test_other_transfers_are_solved_for_every_number_of_intervals(problem, confi
 
 @pytest.mark.parametrize("changes", OTHERS)
 def test_direct_collocation_from_a_rough_guess_finds_no_faster_transfer(problem, config, changes):
-    """Direct collocation, which knows no costate and starts elsewhere, ends at the same time (1e-5).
+    """Direct collocation, which knows no costate and starts afar, ends at the same time (1e-5).
 
     On 160 intervals of order 8; the mesh's error is what is left.
     """

@@ -1,0 +1,149 @@
+"""Where nothing converges: rows that say so, and claims, proofs and figures that bear it."""
+
+import argparse
+import copy
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+import pytest
+
+from smallsat.config import read_yaml
+from smallsat.evidence.claims import judge_claims
+from smallsat.evidence.errata import prove_errata
+from smallsat.transfer import experiments, extremals, observe, solve
+from smallsat.transfer.case_plot import control_figure, states_figure
+from smallsat.transfer.continuation import ContinuationError
+from smallsat.transfer.indirect import ConvergenceError
+from smallsat.transfer.problem import TransferProblem
+from smallsat.transfer.trajectory import ControlHistory, boundary_error, fly
+
+# Claims and proofs that rest on nothing but what is printed, or on the equations.
+FROM_PRINT_ALONE = {
+    "transfer/claim/indirect-growth-linear",
+    "transfer/claim/direct-growth-quadratic",
+}
+
+
+@pytest.fixture(scope="module")
+def section(config):
+    small = copy.deepcopy(config["transfer"])
+    small |= {"degrees": [2], "intervals": [2]}
+    small["numerics"] |= {"multistart": 1, "early_stopping_tolerances": [1e-4]}
+    return small
+
+
+@pytest.fixture(scope="module")
+def results(section, root, tmp_path_factory):
+    """Results of a run in which no extremal is found."""
+    folder = tmp_path_factory.mktemp("missing")
+
+    def no_continuation(problem):
+        raise ContinuationError("continuation ends at once")
+
+    def no_shooting(*_):
+        raise ConvergenceError("residual 1.0e+00 at t_f = -1.0000", 1.0)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(extremals, "minimum_time", no_continuation)
+        patch.setattr(extremals, "solve_extremal", no_shooting)
+        common = {"config": section, "results": folder}
+        for name in ("indirect", "converged", "continuous"):
+            solve._experiment(argparse.Namespace(command=name, **common))
+        solve._multistart(argparse.Namespace(**common))
+        solve._collocation(argparse.Namespace(**common))
+        for intervals in (1, 2):
+            solve._as_published(argparse.Namespace(intervals=intervals, **common))
+        observe._gather(argparse.Namespace(results=folder, intervals=[1, 2]))
+        observe._observe(argparse.Namespace(results=folder, published=root / "data/published"))
+        published = root / "data/published/transfer"
+        whole = {"transfer": section}
+        claims = judge_claims(read_yaml(published / "claims.yaml"), whole, folder, "claims.yaml")
+        errata = prove_errata(read_yaml(published / "errata.yaml"), whole, folder, "errata.yaml")
+    claims.to_csv(folder / "claims.csv", index=False)
+    errata.to_csv(folder / "errata.csv", index=False)
+    return folder
+
+
+def test_every_missing_case_is_a_row_that_says_what_was_tried(results):
+    """Two extremals, one case of each direct run, one polynomial, and the collocation."""
+    table = pd.read_csv(results / "not-converged.csv")
+    assert len(table) == 6
+    assert table["tried"].str.contains("document's guess: residual 1.0e").all()
+    assert table["tried"].str.contains("continuation ends at once").all()
+
+
+def test_observations_of_missing_cases_are_no_numbers_and_say_why(results):
+    """No value beside a printed one where there is no solution; the document's runs stay."""
+    table = pd.read_csv(results / "observations.csv")
+    missing = table[table["computed"].isna()]
+    assert len(missing) > 10
+    assert missing["note"].str.startswith("not converged").all()
+    assert table["computed"].notna().any()
+
+
+def test_claims_on_missing_cases_are_undecided(results):
+    """No claim holds or fails for want of a solution."""
+    table = pd.read_csv(results / "claims.csv").set_index("id")
+    decided = set(table.index[table["outcome"] != "undecided"])
+    assert decided - {"transfer/claim/early-stopping"} <= FROM_PRINT_ALONE
+
+
+@pytest.mark.parametrize("key", ["exhaust-speed", "final-radius", "extra-digit-k16", "nesting"])
+def test_proofs_on_missing_cases_are_not_computed(results, key):
+    """A proof that needs a solution says that there is none."""
+    table = pd.read_csv(results / "errata.csv").set_index("key")
+    assert table.loc[key, "statement"].startswith("not computed")
+    assert not table.loc[key, "holds"]
+
+
+def test_a_missing_case_is_drawn_as_missing(results):
+    """Both figures of a case without any flight say so."""
+    flown = pd.read_parquet(results / "converged.parquet")
+    assert flown.empty
+    for draw in (states_figure, control_figure):
+        figure = draw(flown, ["converged"])
+        texts = [text.get_text() for text in figure.axes[0].texts]
+        labels = [text.get_text() for legend in figure.legends for text in legend.texts]
+        assert "not converged" in texts
+        assert "converged: not converged" in labels
+        plt.close(figure)
+
+
+@pytest.mark.parametrize("final_time", [0.0, -1.0, np.nan, 13.3, 1e9])
+def test_what_cannot_be_flown_is_no_number_and_meets_nothing(config, final_time):
+    """No time, no end, or no mass left: no state, and an infinite error."""
+    problem = TransferProblem.from_config(config["transfer"])
+    times = np.array([0.0, final_time])
+    state, table = fly(problem, ControlHistory(times, [lambda t: 0.0 * t]), 5)
+    assert np.isnan(state).all()
+    assert table.empty
+    assert boundary_error(problem, state) == np.inf
+
+
+def test_a_slower_extremal_is_not_taken(config, monkeypatch):
+    """Where the document's guess ends at another extremal, the continuation's is the start."""
+    problem = TransferProblem.from_config(config["transfer"])
+    calls = []
+    original = extremals.solve_extremal
+
+    def slower_first(problem, intervals, start, steps):
+        found = original(problem, intervals, start, steps)
+        calls.append(intervals)
+        if len(calls) == 1:
+            return extremals.Extremal(found.nodes, found.final_time + 1.0, 1, 0.0, 0.0)
+        return found
+
+    monkeypatch.setattr(extremals, "solve_extremal", slower_first)
+    monkeypatch.setattr(extremals, "REFINEMENTS", 0)
+    guess = config["transfer"]["guess"]
+    units = extremals.Units(1.0, 1.0, 1.0)
+    found = extremals.find_extremals(problem, units, (1,), guess, 192)[1]
+    assert found.start == extremals.CONTINUATION
+    assert found.extremal.final_time == pytest.approx(3.246944208, abs=1e-8)
+
+
+def test_experiments_know_their_own_names():
+    """Every experiment that the observations ask for is one."""
+    for name in observe.OUR_EXPERIMENTS:
+        assert name == "collocation" or hasattr(experiments, name)
