@@ -17,7 +17,9 @@ from smallsat.transfer.continuation import (
 from smallsat.transfer.indirect import (
     ConvergenceError,
     Extremal,
+    adapted_steps,
     condition_error,
+    equal_steps,
     fly_extremal,
     published_start,
     solve_extremal,
@@ -34,9 +36,9 @@ STEPPED_ANGLE = 3.5
 SAME_TIME = 1e-6
 
 
-# Error of the end conditions, flown anew, above which a solution is taken up with finer steps.
+# Error of the end conditions, flown anew, above which a solution is taken up with adapted steps.
 FINE = 1e-9
-REFINEMENTS = 3
+REFINEMENTS = 4
 
 
 @dataclass(frozen=True)
@@ -129,17 +131,14 @@ def _find(
 
 
 def _refined(problem: TransferProblem, intervals: int, start: np.ndarray, steps: int) -> Extremal:
-    """Shooting with steps halved as long as a flight by another integrator misses the end.
-
-    Where the primer vector passes close to zero the thrust turns fast, and more steps are needed.
-    """
-    extremal = solve_extremal(problem, intervals, start, steps)
+    """Shooting with equal steps, and with adapted ones if another integrator misses the end."""
+    extremal = solve_extremal(problem, intervals, start, equal_steps(intervals, steps))
     for _ in range(REFINEMENTS):
         if condition_error(problem, fly_extremal(problem, extremal, 2)[0]) < FINE:
             break
-        steps *= 2
         start = np.append(extremal.nodes.ravel()[5:], extremal.final_time)
-        extremal = solve_extremal(problem, intervals, start, steps)
+        adapted = adapted_steps(problem, extremal)
+        extremal = solve_extremal(problem, intervals, start, adapted)
     return extremal
 
 
