@@ -46,6 +46,8 @@ NO_EXTREMAL = "no extremal to start from"
 FURTHER_STARTS = 40
 # Solutions of random starts that are tried again with fine steps.
 WINNERS = 5
+# How many times more steps a solution gets that another integrator does not confirm.
+FINER = 4
 
 
 @dataclass(frozen=True)
@@ -218,13 +220,8 @@ def multistart(config: Config) -> tuple[Solved, pd.DataFrame]:
             )
             if good:
                 found.append(solution)
-        fine = IpoptSolver(
-            shooting_program(problem, case, steps["converged"], **bounds), mu_init=1e-6
-        )
-        tries: Iterator[Try] = (
-            (f"random start {place + 1}", fine.solve(one.variables), {})
-            for place, one in enumerate(sorted(found, key=lambda one: one.objective)[:WINNERS])
-        )
+        winners = sorted(found, key=lambda one: one.objective)[:WINNERS]
+        tries = _polished(problem, case, winners, steps["converged"], bounds)
         nothing = "" if found else f"{asked + FURTHER_STARTS} random starts: none converged"
         attempts.append(_first_converged(problem, case, "converged", tries, nothing))
     columns = ["degree", "start", "final_time", "converged"]
@@ -276,7 +273,7 @@ def _tries(
     ways: tuple[tuple[str, Bounds, int, Row], ...] = (
         ("near the extremal", near, steps, {"mu_init": 1e-4}),
         ("in wide bounds", wide, steps, {}),
-        ("near the extremal with finer steps", near, 4 * steps, {"mu_init": 1e-4}),
+        ("near the extremal with finer steps", near, FINER * steps, {"mu_init": 1e-4}),
     )
     for name, (lower, upper), count, options in ways:
         program = shooting_program(problem, case, count, continuous=continuous)
@@ -284,6 +281,17 @@ def _tries(
         solution = IpoptSolver(program, **options).solve(guess)
         z = solution.variables
         yield name, solution, {"bound_slack": float(np.minimum(z - lower, upper - z).min())}
+
+
+def _polished(
+    problem: TransferProblem, case: Case, winners: list[Solution], steps: int, bounds: Row
+) -> Iterator[Try]:
+    """Solutions of random starts, best first, solved once more with fine steps, then finer ones."""
+    for count in (steps, FINER * steps):
+        program = shooting_program(problem, case, count, **bounds)
+        solver = IpoptSolver(program, mu_init=1e-6)
+        for place, one in enumerate(winners):
+            yield f"random start {place + 1}, {count} steps", solver.solve(one.variables), {}
 
 
 def _first_converged(
