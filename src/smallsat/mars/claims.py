@@ -18,7 +18,7 @@ from smallsat.evidence.claims import Judgement, judged
 from smallsat.mars.frames import SUN_FRAME, gmo_frame, gmo_frame_rate, nadir_frame, nadir_frame_rate
 from smallsat.mars.gains import damping_ratios, decay_times
 from smallsat.mars.independent_check import attitude_angle, inertial_momentum
-from smallsat.mars.parameters import Parameters, parameters
+from smallsat.mars.parameters import MARS_DAY, Parameters, parameters
 from smallsat.mars.simulation import OPEN_LOOP, run
 from smallsat.results import read_table
 
@@ -68,11 +68,10 @@ def rates_follow_from_one_gravity(config: Config, results: Path) -> Judgement:
 
 def areosynchronous(config: Config, results: Path) -> Judgement:
     """The mothercraft's period against the Mars day of Section XIII.B."""
-    section = config["mars"]
-    period = 2.0 * np.pi / section["orbits"]["gmo"]["rate_rad_s"]
-    day = section["durations_s"]["day"]
+    period = 2.0 * np.pi / config["mars"]["orbits"]["gmo"]["rate_rad_s"]
     return judged(
-        abs(period - day) < 1.0, f"its period is {period:.1f} s, the Mars day given is {day:g} s"
+        abs(period - MARS_DAY) < 1.0,
+        f"its period is {period:.1f} s, the Mars day given is {MARS_DAY:g} s",
     )
 
 
@@ -231,11 +230,22 @@ def step_leaves_artefacts(config: Config, results: Path) -> Judgement:
     whole, half, quarter = errors.values()
     listed = ", ".join(f"{error[-1]:.3g} deg at {step:g} s" for step, error in errors.items())
     visible = np.flatnonzero(whole > VISIBLE_DEG)
+    falls = bool(half[-1] < whole[-1] / 8 and quarter[-1] < half[-1] / 8)
+    order = (
+        "it falls with the fourth power of the step, so it is the integration's, and "
+        if falls
+        else "it "
+    )
     since = f" from {accurate['time_s'].to_numpy()[visible[0]]:g} s on" if len(visible) else ""
+    if whole[-1] > VISIBLE_DEG and not falls:
+        return Judgement(
+            "undecided",
+            f"attitude error at the end by step size: {listed}; it does not fall with the step yet",
+        )
     return judged(
-        bool(whole[-1] > VISIBLE_DEG and half[-1] < whole[-1] / 8 and quarter[-1] < half[-1] / 8),
-        f"attitude error at the end by step size: {listed}; it falls with the fourth power of the "
-        f"step, so it is the integration's, and exceeds {VISIBLE_DEG:g} deg{since}",
+        bool(whole[-1] > VISIBLE_DEG),
+        f"attitude error at the end by step size: {listed}; {order}"
+        f"{'exceeds' if len(visible) else 'never exceeds'} {VISIBLE_DEG:g} deg{since}",
     )
 
 

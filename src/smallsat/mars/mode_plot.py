@@ -5,12 +5,11 @@ from matplotlib.figure import Figure
 from matplotlib.pyplot import subplots
 
 from smallsat.mars.modes import MODE_NAMES
+from smallsat.mars.parameters import MARS_DAY
 
 COLOURS = {"sun": "C4", "nadir": "C0", "gmo": "C2"}
 LABELS = {"sun": "Sun", "nadir": "nadir", "gmo": "GMO"}
 HOUR = 3600.0
-# The Mars day of Section XIII.B, s; a what-if run may show another time.
-MARS_DAY = 88620.0
 
 
 def mode_figure(intervals: pd.DataFrame, shares: pd.DataFrame) -> Figure:

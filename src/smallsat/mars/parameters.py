@@ -13,6 +13,8 @@ from smallsat.mars.gains import Gains, gains
 KM = 1000.0
 # Gravity of Mars, m^3/s^2: Konopliv et al., Mars high resolution gravity fields from MRO (2011).
 MARS_MU = 42828.37e9
+# The Mars day as printed, s (mars, Section XIII.B); a what-if run may fly another time.
+MARS_DAY = 88620.0
 # The printed rates have six significant digits; a rate belongs to an altitude to half of the last.
 RATE_AGREES = 1e-6
 # Times are multiples of the step to this, s.

@@ -263,7 +263,8 @@ def half_turn_off_eigenaxis(config: Config, results: Path) -> Judgement:
     """180 deg: the tilt of the body's z axis on feasible plans."""
     _turn_about_z(parameters(config["slew"]), "half")
     tilts = _tilts(_feasible_plans(results))
-    order = ", the more the shorter the time" if tilts.is_monotonic_decreasing else ""
+    falling = len(tilts) > 1 and tilts.is_monotonic_decreasing
+    order = ", the more the shorter the time" if falling else ""
     return judged(
         bool((tilts > 10.0 * VISIBLE_DEG).all()),
         f"the z axis tilts by {tilts.min():.0f} to {tilts.max():.0f} deg on our feasible plans"
