@@ -6,7 +6,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from smallsat.slew import claims
+from smallsat.drawing.style import apply_style
+from smallsat.slew import claims, plots
 from smallsat.slew.environment_study import crossover_km
 from smallsat.slew.flown import _position
 from smallsat.slew.guidance import kepler_steps
@@ -168,3 +169,25 @@ def test_an_eccentric_orbit_is_followed_as_well_as_a_round_one(section):
     radius = np.linalg.norm(_position(orbit, given.gravity.mu, time))
     expected = orbit.semi_major_axis * (1.0 - 0.6 * np.cos(anomaly))
     assert radius == pytest.approx(expected, rel=1e-9)
+
+
+def test_a_time_without_a_plan_is_a_cross_and_no_point():
+    """Drawn as missing, in both panels, and a row without values in the figure's data."""
+    apply_style()
+    solved = np.array([True, False])
+    table = pd.DataFrame({"duration_s": [110.0, 104.0], "converged": True})
+    table["held_converged"] = solved
+    for name in ("held_cost_N_m_s", *(f"held_peak_{axis}_pct" for axis in "xyz")):
+        table[name] = np.where(solved, 1.0, np.nan)
+    figure, data = plots.trade_off(table, 100.0, np.nan, 102.5)
+    for panel in figure.axes:
+        crosses = [line for line in panel.get_lines() if line.get_label() == "no plan"]
+        assert [line.get_xdata().tolist() for line in crosses] == [[104.0]]
+    assert data["duration_s"].tolist() == [110.0, 104.0]
+    assert data["held_cost_N_m_s"].isna().tolist() == [False, True]
+
+
+def test_a_missing_figure_says_which():
+    """A word in its place, and the same word in its data."""
+    figure, data = plots.missing("no plan: 90 deg, one segment")
+    assert figure.axes[0].texts[0].get_text() == data["note"][0] == "no plan: 90 deg, one segment"

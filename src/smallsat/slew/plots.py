@@ -17,6 +17,7 @@ from smallsat.slew.simulation import angles_deg, usage_pct
 Drawing = tuple[Figure, pd.DataFrame]
 AXES = "xyz"
 QUATERNION = ["q_1", "q_2", "q_3", "q_4"]
+CONTROL_STYLES = {"open loop": "C0--", "closed loop on the plan": "C1-", "eigenaxis law": "C2:"}
 # Every so many rows of a flight at 10 Hz are drawn.
 THINNED = 2
 # Labels of the last axes stand a little above those of the first ones.
@@ -233,15 +234,20 @@ def tracking(flights: pd.DataFrame) -> Drawing:
         for j, error in enumerate(errors):
             panel = panels[i, j]
             rows = flights[(flights["turn"] == turn) & (flights["inertia_error_pct"] == error)]
-            for k, (name, flown) in enumerate(rows.groupby("control", sort=False)):
-                style = ("--", "-", ":")[k % 3]
-                panel.plot(flown["time_s"], flown["error_deg"] + 1e-4, style, label=name, lw=1.2)
+            for name, flown in rows.groupby("control", sort=False):
+                panel.plot(
+                    flown["time_s"], flown["error_deg"] + 1e-4, CONTROL_STYLES[str(name)],
+                    label=name, lw=1.2,
+                )  # fmt: skip
             panel.set(yscale="log", ylim=(1e-3, 300))
             panel.set_title(f"{turn}, inertia error {error:g} %")
             if j == 0:
                 panel.set_ylabel("error to the target [deg]")
             panel.set_xlabel("time [s]")
-    lines, names = panels[0, 0].get_legend_handles_labels()
+    # A turn without a plan is flown by the eigenaxis law alone.
+    lines, names = max(
+        (p.get_legend_handles_labels() for p in panels[:, 0]), key=lambda h: len(h[1])
+    )
     figure.legend(lines, names, loc="outside upper center", ncols=3)
     drawn = flights[["turn", "inertia_error_pct", "control", "time_s", "error_deg"]]
     return _frozen(figure), drawn
