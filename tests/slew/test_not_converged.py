@@ -7,10 +7,11 @@ import pandas as pd
 import pytest
 
 from smallsat.drawing.style import apply_style
-from smallsat.slew import claims, plots
+from smallsat.optimal_control.gauss_pseudospectral import Mesh
+from smallsat.slew import claims, minimum_time, plots
 from smallsat.slew.environment_study import crossover_km
 from smallsat.slew.flown import _position
-from smallsat.slew.guidance import kepler_steps
+from smallsat.slew.guidance import Model, kepler_steps
 from smallsat.slew.observations import chosen_plan, comparable_time, short_of
 from smallsat.slew.parameters import parameters
 from smallsat.slew.plans import HELD_COLUMNS, guidance_model, joined
@@ -191,3 +192,33 @@ def test_a_missing_figure_says_which():
     """A word in its place, and the same word in its data."""
     figure, data = plots.missing("no plan: 90 deg, one segment")
     assert figure.axes[0].texts[0].get_text() == data["note"][0] == "no plan: 90 deg, one segment"
+
+
+def test_axes_that_switch_together_have_their_least_time(section, given):
+    """120 deg about (1, 1, 1), unit moments and torques: by hand 2 sqrt(angle / sqrt 3)."""
+    body = Model(np.eye(3), 1.0, 1e6, 1.0, False, None)
+    few = copy.deepcopy(section)
+    few["numerics"]["starts"] = 1
+    target = np.full(4, 0.5)
+    found = minimum_time.least_time(body, given.initial, target, 2.3, Mesh(4, 6), few)
+    assert found.converged
+    assert found.duration == pytest.approx(
+        2.0 * np.sqrt(2.0 * np.pi / 3.0 / np.sqrt(3.0)), rel=1e-3
+    )
+    assert found.attitude_miss < 1e-3
+
+
+def test_a_wheel_that_fills_slows_the_turn_and_is_not_taken_for_bang_bang(section, given):
+    """Momentum a third of what the unlimited turn uses: a longer time, without switching times."""
+    few = copy.deepcopy(section)
+    few["numerics"]["starts"] = 1
+    times = {}
+    for limit in (1e6, 0.5):
+        body = Model(np.eye(3), 1.0, limit, 1.0, False, None)
+        found = minimum_time.least_time(
+            body, given.initial, given.targets["quarter"], 3.0, Mesh(6, 6), few
+        )
+        assert found.converged and found.momentum_limited == (limit < 1.0)
+        times[limit] = found.duration
+    assert times[0.5] > 1.2 * times[1e6]
+    assert times[0.5] <= minimum_time.eigenaxis_time(np.pi / 2.0, 1.0, 1.0, 0.5) + 1e-2

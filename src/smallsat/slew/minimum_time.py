@@ -18,6 +18,8 @@ from smallsat.slew.plans import spread
 # Two starts found the same least time if they agree to this, s or its equivalent.
 SAME = 1e-3
 AXES = "xyz"
+# Attitude and rate at the end.
+CONDITIONS = 6
 # A wheel counts as full from this share of its momentum on.
 FULL = 0.995
 
@@ -33,8 +35,8 @@ class LeastTime:
     collocated
         The fastest converged solution of the pseudospectral method, or else the last one.
     arcs
-        Bang-bang control with refined switching times, scaled; none where a wheel is full, since it
-        then turns on without torque.
+        Bang-bang control with refined switching times, scaled, or with those of collocation where
+        axes switch together; none where a wheel is full, since it then turns on without torque.
     duration
         By the refined arcs, or by collocation where there are none, s.
     converged, status, residual
@@ -113,7 +115,10 @@ def fastest(
             rate_miss=nan,
         )
     arcs = arcs_of(best.plan.times, best.plan.controls, best.plan.final_time)
-    refined, solution = refine(model.rate, stated.initial, stated.terminal, arcs)
+    # Where axes switch together there are fewer arcs than conditions: nothing is left to refine.
+    refined, solution = arcs, best.solution
+    if len(arcs.durations) >= CONDITIONS:
+        refined, solution = refine(model.rate, stated.initial, stated.terminal, arcs)
     state = fly_held(model, stated.initial, refined.durations, refined.controls)[-1]
     attitude, rate = miss(model, state, target)
     return LeastTime(
