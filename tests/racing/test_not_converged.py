@@ -10,7 +10,7 @@ from matplotlib import pyplot as plt
 from scipy.integrate import solve_ivp
 
 from smallsat.dynamics.clohessy_wiltshire import rate_matrix
-from smallsat.racing import attempts, claims, plots
+from smallsat.racing import attempts, checks, claims, plots
 from smallsat.racing.course import Course
 from smallsat.racing.course_program import CourseProgram
 from smallsat.racing.cubesat import CubeSat
@@ -115,6 +115,35 @@ def test_continuation_finds_what_the_arcs_miss(given, short, monkeypatch):
     assert plan.tried[0] == attempts.SMOOTH
     assert plan.tried[-1].endswith("100 % of it")
     assert min(calls) < given.mean_motion
+
+
+@pytest.mark.parametrize("largest", [0.4, 2.3])
+def test_dynamic_programming_finds_its_range(given, section, short, largest):
+    """Too small a range of speeds is widened, to within 0.5 % of the whole-course optimum."""
+    craft = CubeSat("Meeny", 0.25, (), short.start)
+    small = deepcopy(section)
+    small["optimum"]["intervals"] = 8
+    small["dynamic_programming"] |= {"largest_speed": largest, "speeds": 5, "refinements": 3}
+    changed = replace(given, races=given.races | {"scenario-1": Race(short, (craft,))})
+    table, missing = checks.dynamic_programming(changed, small, "scenario-1")
+    whole = CourseProgram(RINGS, "state", 8).solve(
+        whole_leg(short, craft), craft, given.mean_motion
+    )
+    assert not missing
+    assert whole.time <= table["time_s"].iloc[-1] < 1.005 * whole.time
+
+
+def test_dynamic_programming_without_a_path_is_a_row(given, section, short):
+    """Weaker than the tide, no segment is solved: no time, and what was tried."""
+    craft = CubeSat("Meeny", WEAK, (), short.start)
+    small = deepcopy(section)
+    small["optimum"]["intervals"] = 4
+    small["dynamic_programming"] |= {"speeds": 3, "refinements": 1}
+    changed = replace(given, races=given.races | {"scenario-1": Race(short, (craft,))})
+    table, missing = checks.dynamic_programming(changed, small, "scenario-1")
+    assert table["time_s"].isna().all()
+    assert [one.case for one in missing] == ["scenario-1, Meeny, dynamic programming"]
+    assert "3 speeds" in missing[0].tried
 
 
 def test_a_race_without_a_solution_is_a_row(weak):

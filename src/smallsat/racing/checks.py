@@ -22,8 +22,9 @@ from smallsat.racing.races import ANYWHERE, REST, WHOLE, program, whole_leg
 SATURATED = 1.0 - 1e-3
 # Random guesses: ring speeds and durations between these, scaled.
 SPEEDS, TIMES = (0.3, 1.2), (1.6, 3.5)
-# How often the range of speeds is widened, and how slow its least speed may get.
-WIDENED, LEAST_SHARE = 6, 1e-3
+# How often the range of speeds is doubled, and what counts as its end, in spacings of its grid.
+# Below the range the refinements go by themselves.
+WIDENED, END = 3, 1e-6
 # A primer below this share of its largest value has no direction to speak of.
 SMALL_PRIMER = 0.05
 # Columns of `mesh_refinement` that are there even if nothing converged.
@@ -154,7 +155,7 @@ def dynamic_programming(given: Parameters, section: Config, scenario: str) -> Ch
     A table of least times from speed to speed for every segment, first on a grid of speeds, then on
     ever finer ones around the best path. Each entry is a solve of one segment with both ends fixed,
     on the mesh of the whole-course program, which it must agree with. The grid's range goes with
-    the thrust and the size of the course; where the best path touches its end, it is widened.
+    the thrust and the size of the course; where the best path touches its end, it is doubled.
     """
     numbers, race = section["dynamic_programming"], given.races[scenario]
     cubesat = next(c for c in race.cubesats if c.name == numbers["cubesat"])
@@ -162,39 +163,15 @@ def dynamic_programming(given: Parameters, section: Config, scenario: str) -> Ch
     length = length_unit(np.vstack([cubesat.position, course.centres, course.end]))
     unit = float(np.sqrt(length * cubesat.thrust))
     grid = unit * np.linspace(numbers["least_speed"], numbers["largest_speed"], numbers["speeds"])
-    spacing = float(grid[1] - grid[0])
     known: dict[tuple[int, float, float], float] = {}
-    total, path = _best_path(given, section, course, cubesat, [grid] * course.rings, known)
-    for _ in range(WIDENED):
-        touched = [end for end in (min, max) if end(path) == end(grid)]
-        if not touched or not np.isfinite(total):
+    for _ in range(1 + WIDENED):
+        levels, fastest = _refined(given, section, course, cubesat, grid, known)
+        if not fastest:
             break
-        if min in touched and grid[0] > LEAST_SHARE * grid[-1]:
-            grid = np.r_[0.5 * grid[0], grid]
-        if max in touched:
-            grid = np.r_[grid, grid[-1] + spacing * np.arange(1, numbers["speeds"] // 2 + 1)]
-        total, path = _best_path(given, section, course, cubesat, [grid] * course.rings, known)
-    least = numbers["least_speed"] * unit / 100.0
-    rows: list[dict[str, Any]] = []
-    for level in range(numbers["refinements"] + 1):
-        if level:
-            spacing /= 2.0
-            choices = [np.maximum([s - spacing, s, s + spacing], least) for s in path]
-            total, path = _best_path(given, section, course, cubesat, choices, known)
-        rows.append(
-            {
-                "scenario": scenario,
-                "cubesat": cubesat.name,
-                "level": level,
-                "spacing_m_s": spacing,
-                "segments_solved": len(known),
-                "time_s": total if np.isfinite(total) else np.nan,
-            }
-        )
-        if not np.isfinite(total):
-            break
+        grid = np.linspace(grid[0], 2.0 * grid[-1], len(grid))
+    rows = [{"scenario": scenario, "cubesat": cubesat.name} | level for level in levels]
     missing = []
-    if not np.isfinite(total):
+    if np.isnan(levels[-1]["time_s"]):
         missing.append(
             NotConverged(
                 f"{scenario}, {cubesat.name}, dynamic programming",
@@ -203,6 +180,42 @@ def dynamic_programming(given: Parameters, section: Config, scenario: str) -> Ch
             )
         )
     return pd.DataFrame(rows), missing
+
+
+def _refined(
+    given: Parameters,
+    section: Config,
+    course: Course,
+    cubesat: CubeSat,
+    grid: np.ndarray,
+    known: dict[tuple[int, float, float], float],
+) -> tuple[list[dict[str, Any]], bool]:
+    """Least times on a grid of speeds and on ever finer ones, one a level.
+
+    Also whether the best path goes as fast as all of them let it: then the range was too small.
+    """
+    numbers = section["dynamic_programming"]
+    spacing = float(grid[1] - grid[0])
+    least, reach = float(grid[0]) / 100.0, float(grid[-1])
+    choices = [grid] * course.rings
+    levels: list[dict[str, Any]] = []
+    for level in range(numbers["refinements"] + 1):
+        total, path = _best_path(given, section, course, cubesat, choices, known)
+        levels.append(
+            {
+                "level": level,
+                "spacing_m_s": spacing,
+                "segments_solved": len(known),
+                "time_s": total if np.isfinite(total) else np.nan,
+            }
+        )
+        if not np.isfinite(total):
+            return levels, False
+        at_the_end = max(path) > reach - END * spacing
+        spacing /= 2.0
+        reach += spacing
+        choices = [np.maximum([s - spacing, s, s + spacing], least) for s in path]
+    return levels, at_the_end
 
 
 def _best_path(
