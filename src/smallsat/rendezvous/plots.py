@@ -144,8 +144,11 @@ def comparison(section: Config, flights: pd.DataFrame, paths: pd.DataFrame) -> D
         path = paths[paths["flight"] == case]
         if path.empty:
             continue
-        minutes = float(flights[flights["flight"] == case]["time_s"].iloc[-1]) / 60.0
-        docked = (flights[flights["flight"] == case]["phase"] == "final").any()
+        seconds = float(flights[flights["flight"] == case]["time_s"].iloc[-1])
+        minutes = seconds / 60.0
+        # The time limit ends what has no room for a step more.
+        in_time = seconds + given.sample_times[2] <= given.time_limit
+        docked = in_time and (flights[flights["flight"] == case]["phase"] == "final").any()
         label = f"{CASE_TITLES[case]}: " + (f"{minutes:.1f} min" if docked else "does not dock")
         for axes in (wide, near):
             axes.plot(path["y_m"], path["x_m"], color=colour, lw=1.1, label=label)
