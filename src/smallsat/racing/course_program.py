@@ -3,8 +3,8 @@
 The control is held over equal pieces of a segment, and a piece is flown in closed form, so that the
 program's trajectory is exact and any integrator can fly it anew. A ring is crossed at its centre
 along its normal by construction: the state there is the centre, and the normal times a speed, which
-is a variable. Units are scaled: lengths by the power of ten below the longest way from ring to
-ring, 100 m on the document's courses, times by sqrt(length / thrust).
+is a variable. Units are scaled: lengths by the power of ten below the longest way, 100 m on the
+document's courses, times by sqrt(length / thrust).
 """
 
 from dataclasses import dataclass
@@ -27,10 +27,14 @@ BALL, BOX = 1.0, 4.0
 GUESS_THRUST = 0.9
 
 
-def length_unit(places: np.ndarray) -> float:
-    """Power of ten below the largest distance between neighbours of places (k, 3), m."""
+def length_unit(places: np.ndarray, speed: float = 0.0, thrust: float = 1.0) -> float:
+    """Power of ten below the longest way of a leg, m.
+
+    That is the largest distance between neighbours of its places (k, 3), m, or the way in which a
+    thrust, m/s^2, brings a speed, m/s, to rest: who comes fast to a near ring has far to go.
+    """
     gaps = np.linalg.norm(np.diff(places, axis=0), axis=1)
-    return float(10.0 ** np.floor(np.log10(gaps.max())))
+    return float(10.0 ** np.floor(np.log10(max(gaps.max(), speed**2 / (2.0 * thrust)))))
 
 
 Finish = Literal["ring", "state", "rest anywhere"]
@@ -169,7 +173,8 @@ class CourseProgram:
     ) -> Plan:
         thrust = float(limits.max())
         places = np.vstack([leg.position, leg.centres, leg.end_position])[: self.segments + 1]
-        unit = _Units(thrust, mean_motion, length_unit(places))
+        speed = max(float(np.linalg.norm(v)) for v in (leg.velocity, leg.end_velocity))
+        unit = _Units(thrust, mean_motion, length_unit(places, speed, thrust))
         scaled = unit.leg(leg)
         parameters = np.concatenate(
             [

@@ -18,8 +18,9 @@ from smallsat.racing.course_program import Plan
 from smallsat.racing.cubesat import CubeSat
 from smallsat.racing.shooting import costate_matrix, thrust_of
 
-# Steps of a held control in a flight; the points of a segment that are kept.
-STEPS = 3
+# Steps of a held control in a flight, more where the orbit turns by more than this, rad, in one of
+# them; the points of a segment that are kept.
+STEPS, TURN, MOST = 3, 5e-3, 100.0
 POINTS = 61
 STATE = ["x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s"]
 THRUST = ["ux_m_s2", "uy_m_s2", "uz_m_s2"]
@@ -49,7 +50,19 @@ def _fly(state, controls, durations, a, steps):
 
 def fly_plan(plan: Plan, mean_motion: float) -> np.ndarray:
     """States (m, N steps + 1, 6) of a plan, flown from its start through all segments."""
-    return _fly(plan.starts[0], plan.controls, plan.durations, rate_matrix(mean_motion), STEPS)
+    return _fly(
+        plan.starts[0],
+        plan.controls,
+        plan.durations,
+        rate_matrix(mean_motion),
+        _steps(plan, mean_motion),
+    )
+
+
+def _steps(plan: Plan, mean_motion: float) -> int:
+    """Steps of a held control: those of slow races take long."""
+    piece = float(np.max(plan.durations)) / plan.controls.shape[1]
+    return STEPS * max(1, int(np.ceil(min(MOST, mean_motion * piece / STEPS / TURN))))
 
 
 def plan_table(plan: Plan, mean_motion: float) -> pd.DataFrame:
@@ -60,7 +73,8 @@ def plan_table(plan: Plan, mean_motion: float) -> pd.DataFrame:
     began = 0.0
     for k in range(segments):
         times = np.linspace(0.0, plan.durations[k], points)
-        held = np.minimum(np.arange(points) // STEPS, plan.controls.shape[1] - 1)
+        steps = (points - 1) // plan.controls.shape[1]
+        held = np.minimum(np.arange(points) // steps, plan.controls.shape[1] - 1)
         costates = np.array([costate_transition(mean_motion, t) @ plan.costates[k] for t in times])
         parts.append(_part(k, began + times, flown[k], plan.controls[k, held], costates))
         began += plan.durations[k]

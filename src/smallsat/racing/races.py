@@ -37,6 +37,8 @@ ANYWHERE = "whole course, rest anywhere"
 SOLUTIONS = (AS_PUBLISHED, GREEDY, INDIRECT, WHOLE, ANYWHERE)
 # The start positions lie in a plane.
 ALONG_TRACK_VARIANCE = 0.0
+# Where the indirect method fails, it starts anew from a mesh so many times finer.
+FINER = 4
 # Of the least ring speed: below this a solution counts as held by it.
 SLOW = 1.01
 REST = np.zeros(3)
@@ -125,21 +127,28 @@ def greedy(course: Course, cubesat: CubeSat, mean_motion: float, intervals: int)
     state = np.r_[cubesat.position, REST]
     plans = []
     for k in range(course.rings + 1):
-        final = k == course.rings
-        leg = Leg(
-            state[:3],
-            state[3:],
-            course.centres[k : k + 1],
-            course.normals[k : k + 1],
-            course.end,
-            REST,
-        )
-        solver = program(0 if final else 1, "state" if final else "ring", intervals)
+        solver, leg = _segment(course, k, state, intervals)
         plans.append(attempts.solve(solver, leg, cubesat, mean_motion))
         if not plans[-1].converged:
             break
         state = plans[-1].final
     return plans
+
+
+def _segment(
+    course: Course, k: int, state: np.ndarray, intervals: int
+) -> tuple[CourseProgram, Leg]:
+    """The program and the leg of segment k from a state (6,)."""
+    final = k == course.rings
+    leg = Leg(
+        state[:3],
+        state[3:],
+        course.centres[k : k + 1],
+        course.normals[k : k + 1],
+        course.end,
+        REST,
+    )
+    return program(0 if final else 1, "state" if final else "ring", intervals), leg
 
 
 def join(plans: list[Plan]) -> Plan:
@@ -275,25 +284,21 @@ def _add_extremals(
         # Where the direct solution crosses at the least speed allowed, the speed is not free.
         speed = float(np.linalg.norm(plan.final[3:]))
         position = course.end if final else course.centres[k]
-        length = length_unit(np.array([plan.starts[0, :3], position]))
+        before = float(np.linalg.norm(plan.starts[0, 3:]))
+        length = length_unit(np.array([plan.starts[0, :3], position]), before, cubesat.thrust)
         slowest = SLOW * LEAST_SPEED * np.sqrt(length * cubesat.thrust)
         goal = indirect.Goal(
             position,
             course.normals[min(k, course.rings - 1)],
             plan.final[3:] if speed < slowest else None,
         )
-        for panels in (section["optimum"]["indirect_panels"] * 8**i for i in range(3)):
-            found = indirect.solve(
-                plan.starts[0],
-                goal,
-                cubesat.thrust,
-                given.mean_motion,
-                plan.costates[0],
-                plan.time,
-                panels,
-            )
-            if found.converged:
-                break
+        found = _extremal(plan, goal, given, section, cubesat)
+        intervals = section["optimum"]["intervals"]
+        if not found.converged:
+            intervals *= FINER
+            solver, leg = _segment(course, k, plan.starts[0], intervals)
+            finer = solver.refine(leg, cubesat, given.mean_motion, plan)
+            found = _extremal(finer, goal, given, section, cubesat) if finer.converged else found
         if not found.converged:
             failed.append(segment_name(course, k))
             tables.not_converged.append(
@@ -301,7 +306,8 @@ def _add_extremals(
                     f"{case_name(key)}, segment {failed[-1]}",
                     "no root",
                     found.error,
-                    f"quadratures of {section['optimum']['indirect_panels']} to {panels} panels",
+                    f"from costates of up to {intervals} pieces, with quadratures of "
+                    f"{_panels(section)[0]} to {_panels(section)[-1]} panels",
                 )
             )
         total += found.duration
@@ -331,6 +337,29 @@ def _add_extremals(
             course, passed, failed, minimum_cost(np.array(starts), course, cubesat.thrust), total, 0
         )
     )
+
+
+def _panels(section: Config) -> list[int]:
+    return [section["optimum"]["indirect_panels"] * 8**i for i in range(3)]
+
+
+def _extremal(
+    plan: Plan, goal: indirect.Goal, given: Parameters, section: Config, cubesat: CubeSat
+) -> indirect.Extremal:
+    """The indirect method from a plan of a segment, with ever finer quadratures."""
+    for panels in _panels(section):
+        found = indirect.solve(
+            plan.starts[0],
+            goal,
+            cubesat.thrust,
+            given.mean_motion,
+            plan.costates[0],
+            plan.time,
+            panels,
+        )
+        if found.converged:
+            break
+    return found
 
 
 def fly_as_published(

@@ -82,6 +82,8 @@ def empty_rows(count: int) -> dict[str, np.ndarray]:
 def conforming(table: pd.DataFrame, schema: pa.Schema, path: str) -> pd.DataFrame:
     """The table with the columns of the schema, if they are there and of its types.
 
+    Columns without rows, as of a group that no manoeuvre came to, have no type to speak of.
+
     Raises
     ------
     InputError
@@ -90,13 +92,13 @@ def conforming(table: pd.DataFrame, schema: pa.Schema, path: str) -> pd.DataFram
     found = pa.Schema.from_pandas(table, preserve_index=False)
     for expected in schema:
         at = found.get_field_index(expected.name)
-        if at < 0 or found.field(at).type != expected.type:
+        if at < 0 or (len(table) and found.field(at).type != expected.type):
             kind = "missing" if at < 0 else f"of type {found.field(at).type}"
             raise InputError(
                 f"{path}: column '{expected.name}' is {kind}; needed: {expected.type}; "
                 f"delete the file and run `snakemake` again"
             )
-    return table[schema.names]
+    return table[schema.names] if len(table) else schema.empty_table().to_pandas()
 
 
 def totals(table: pd.DataFrame, quantity: str, phases: Sequence[str] = PHASES) -> pd.Series:
