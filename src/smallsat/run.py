@@ -10,6 +10,7 @@ from smallsat.racing.parameters import parameters as check_racing
 from smallsat.racing.parameters import with_absolute_course_files
 from smallsat.rendezvous.parameters import check as check_rendezvous
 from smallsat.slew.parameters import check as check_slew
+from smallsat.transfer.parameters import check as check_transfer
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,7 @@ def checked(config: Config) -> Config:
         Naming the first key that does not do, its value and what is allowed.
     """
     config = with_absolute_course_files(config)
+    check_transfer(config["transfer"])
     check_mars(config["mars"])
     check_slew(config["slew"])
     check_racing(config["racing"])
