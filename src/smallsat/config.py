@@ -59,9 +59,9 @@ def overlaid_config(
     """
     config = default
     for path in files:
-        config = _merged(config, read_overlay(path))
+        config = merged(config, read_overlay(path))
     for entry in entries:
-        config = _merged(config, parse_entry(entry, schema))
+        config = merged(config, parse_entry(entry, schema))
     return validate(config, schema)
 
 
@@ -127,11 +127,11 @@ def lookup(config: Config, key: str) -> Any:
     return value
 
 
-def _merged(config: Any, overlay: Any) -> Any:
-    """The overlay's values in place of the configuration's; a list is replaced as a whole."""
+def merged(config: Any, overlay: Any) -> Any:
+    """A configuration with an overlay's values in place of its own; a list is one value."""
     if isinstance(config, dict) and isinstance(overlay, dict):
         return config | {
-            key: _merged(config[key], value) if key in config else value
+            key: merged(config[key], value) if key in config else value
             for key, value in overlay.items()
         }
     return overlay

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from smallsat.config import merged
 from smallsat.errors import InputError, report_input_errors
 from smallsat.results import read_table
 from smallsat.strict_yaml import read_yaml
@@ -68,16 +69,6 @@ def read_what_ifs(folder: Path = HERE) -> list[WhatIf]:
                 )
             )
     return found
-
-
-def merged(small: Any, change: Any) -> Any:
-    """The change on top of the sizes, section by section."""
-    if isinstance(small, dict) and isinstance(change, dict):
-        return small | {
-            key: merged(small[key], value) if key in small else value
-            for key, value in change.items()
-        }
-    return change
 
 
 def run(what_if: WhatIf, command: list[str], project: Path, **options: Any) -> Outcome:

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import sysconfig
 import venv
+from base64 import urlsafe_b64encode
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -58,6 +59,20 @@ class Project:
         lines = [line for line in output.splitlines() if line.startswith("smallsat: ")]
         assert len(lines) == 1, output
         return lines[0]
+
+    def noted(self, run: str, *names: str) -> bool:
+        """Whether files of a run are whole and Snakemake has taken note of them.
+
+        It marks the outputs of a job when the job starts and takes the marks away once the job is
+        recorded; what is still marked is made again.
+        """
+        folder = self.folder / "runs" / run
+        marks = folder / ".snakemake/incomplete"
+        return all(
+            (folder / name).exists()
+            and not (marks / urlsafe_b64encode(name.encode()).decode()).exists()
+            for name in names
+        )
 
 
 def make_environment(folder: Path) -> None:

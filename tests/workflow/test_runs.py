@@ -4,7 +4,6 @@ import os
 import signal
 import subprocess
 import time
-from base64 import urlsafe_b64encode
 
 import pytest
 
@@ -106,25 +105,19 @@ def test_a_truncated_results_file_is_named(built):
     assert (built.folder / "data/results/transfer/indirect.csv").exists()
 
 
-def _noted(run):
-    """Files of the shards that are whole and that Snakemake has taken note of.
-
-    It marks the outputs of a job when the job starts and takes the marks away once the job is
-    recorded; what is still marked is made again.
-    """
-    found = []
-    for k in (1, 2, 4):
-        names = [
-            f"data/results/transfer/as-published-k{k}{end}"
-            for end in (".csv", ".parquet", "-seconds.csv")
-        ]
-        marks = [
-            run / ".snakemake/incomplete" / urlsafe_b64encode(n.encode()).decode() for n in names
-        ]
-        files = [run / name for name in names]
-        if all(file.exists() for file in files) and not any(mark.exists() for mark in marks):
-            found += files
-    return found
+def _shards(project, run):
+    """Files of the shards that Snakemake has taken note of, and when they were written."""
+    shards = [
+        [f"data/results/transfer/as-published-k{k}{end}" for end in (".csv", ".parquet")]
+        for k in (1, 2, 4)
+    ]
+    paths = [
+        project.folder / "runs" / run / name
+        for names in shards
+        if project.noted(run, *names)
+        for name in names
+    ]
+    return {path: path.stat().st_mtime_ns for path in paths}
 
 
 def test_a_killed_run_resumes(make_project):
@@ -145,11 +138,11 @@ def test_a_killed_run_resumes(make_project):
         start_new_session=True,
     )
     deadline = time.monotonic() + 120
-    while not _noted(killed) and time.monotonic() < deadline:
+    while not _shards(project, "killed") and time.monotonic() < deadline:
         time.sleep(0.02)
     os.killpg(process.pid, signal.SIGKILL)
     process.wait()
-    kept = {path: path.stat().st_mtime_ns for path in _noted(killed)}
+    kept = _shards(project, "killed")
     assert kept and not (killed / target).exists()
 
     resumed = project.snakemake(target, "--config", "run=killed", SMALL)

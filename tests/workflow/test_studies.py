@@ -5,7 +5,6 @@ import os
 import signal
 import subprocess
 import time
-from base64 import urlsafe_b64encode
 from pathlib import Path
 
 import pytest
@@ -84,28 +83,21 @@ def test_progress_is_in_each_shards_log(project):
     assert "case 4 of 4, N 30, Ts 60 s: 2 of 2 manoeuvres" in log.read_text()
 
 
-def noted(run):
-    """Shards that are whole and that Snakemake has taken note of.
-
-    It marks a job's output when the job starts and takes the mark away once the job is recorded;
-    what is still marked is made again.
-    """
-    marks = run / ".snakemake/incomplete"
-    return [
-        path
-        for path in (run / SHARDS).glob("*.parquet")
-        if not (marks / urlsafe_b64encode(f"{SHARDS}/{path.name}".encode()).decode()).exists()
-    ]
+def noted(project, run):
+    """Shards that Snakemake has taken note of, and when they were written."""
+    names = [f"{SHARDS}/rendezvous-sweep-{k}-of-3.parquet" for k in (1, 2, 3)]
+    paths = [project.folder / "runs" / run / name for name in names if project.noted(run, name)]
+    return {path: path.stat().st_mtime_ns for path in paths}
 
 
 def test_a_killed_snakemake_goes_on(project):
     """SIGKILL to Snakemake and all of its jobs: noted shards are not flown again."""
     run = project.folder / "runs/killed"
     process = start(project, "killed")
-    until(lambda: noted(run))
+    until(lambda: noted(project, "killed"))
     os.killpg(process.pid, signal.SIGKILL)
     process.wait()
-    kept = {path: path.stat().st_mtime_ns for path in noted(run)}
+    kept = noted(project, "killed")
     assert kept and not (run / TARGET).exists()
     resumed = project.snakemake(TARGET, *settings("killed", 3))
     assert resumed.returncode == 0, resumed.stdout + resumed.stderr
