@@ -280,25 +280,14 @@ def _add_extremals(
     rows, failed, total = [], [], 0.0
     ends, starts = [], []
     for k, plan in enumerate(plans):
-        final = k == course.rings
-        # Where the direct solution crosses at the least speed allowed, the speed is not free.
-        speed = float(np.linalg.norm(plan.final[3:]))
-        position = course.end if final else course.centres[k]
-        before = float(np.linalg.norm(plan.starts[0, 3:]))
-        length = length_unit(np.array([plan.starts[0, :3], position]), before, cubesat.thrust)
-        slowest = SLOW * LEAST_SPEED * np.sqrt(length * cubesat.thrust)
-        goal = indirect.Goal(
-            position,
-            course.normals[min(k, course.rings - 1)],
-            plan.final[3:] if speed < slowest else None,
-        )
-        found = _extremal(plan, goal, given, section, cubesat)
+        found = _extremal(plan, course, k, given, section, cubesat)
         intervals = section["optimum"]["intervals"]
         if not found.converged:
             intervals *= FINER
             solver, leg = _segment(course, k, plan.starts[0], intervals)
             finer = solver.refine(leg, cubesat, given.mean_motion, plan)
-            found = _extremal(finer, goal, given, section, cubesat) if finer.converged else found
+            if finer.converged:
+                found = _extremal(finer, course, k, given, section, cubesat)
         if not found.converged:
             failed.append(segment_name(course, k))
             tables.not_converged.append(
@@ -344,9 +333,19 @@ def _panels(section: Config) -> list[int]:
 
 
 def _extremal(
-    plan: Plan, goal: indirect.Goal, given: Parameters, section: Config, cubesat: CubeSat
+    plan: Plan, course: Course, k: int, given: Parameters, section: Config, cubesat: CubeSat
 ) -> indirect.Extremal:
-    """The indirect method from a plan of a segment, with ever finer quadratures."""
+    """The indirect method from a plan of segment k, with ever finer quadratures."""
+    position = course.end if k == course.rings else course.centres[k]
+    # Where the direct solution crosses at the least speed allowed, the speed is not free.
+    before, speed = (float(np.linalg.norm(state[3:])) for state in (plan.starts[0], plan.final))
+    length = length_unit(np.array([plan.starts[0, :3], position]), before, cubesat.thrust)
+    slowest = SLOW * LEAST_SPEED * np.sqrt(length * cubesat.thrust)
+    goal = indirect.Goal(
+        position,
+        course.normals[min(k, course.rings - 1)],
+        plan.final[3:] if speed < slowest else None,
+    )
     for panels in _panels(section):
         found = indirect.solve(
             plan.starts[0],
