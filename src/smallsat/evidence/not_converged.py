@@ -52,7 +52,10 @@ def read_not_converged(results: Path) -> pd.DataFrame:
         Folder ``data/results`` of the run.
     """
     tables = [
-        read_table(path, ("case", "status", "tried")).assign(study=path.parent.name)
+        # What was not tried is an empty text, and no missing number.
+        read_table(path, ("case", "status", "tried"))
+        .fillna({"tried": ""})
+        .assign(study=path.parent.name)
         for path in sorted(results.glob("*/not-converged.csv"))
     ]
     columns = ["study", *NOT_CONVERGED_COLUMNS]

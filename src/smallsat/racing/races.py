@@ -259,7 +259,7 @@ def _unsolved(course: Course, names: list[str]) -> dict[str, Any]:
 def _without_start(tables: Tables, key: dict[str, Any], course: Course) -> None:
     """The indirect method where the direct one, from whose plans it starts, found none."""
     status = "no direct solution to start from"
-    tables.not_converged.append(NotConverged(case_name(key), status))
+    tables.not_converged.append(NotConverged(case_name(key), status, tried="the direct method"))
     _add_missing(tables, key, course, 0, status)
 
 
