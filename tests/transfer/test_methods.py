@@ -8,6 +8,7 @@ import pytest
 from smallsat.optimal_control.collocation import Collocation
 from smallsat.optimal_control.nonlinear_program import IpoptSolver
 from smallsat.transfer import beyond
+from smallsat.transfer.continuation import minimum_time
 from smallsat.transfer.direct import Case, control_history, fitted_guess, shooting_program
 from smallsat.transfer.extremals import Found, find_extremals
 from smallsat.transfer.indirect import condition_error, fly_extremal
@@ -70,11 +71,16 @@ OTHERS = [
 FAST_TURN = {"thrust": 0.04, "final_radius": 1.3}
 
 
-@pytest.mark.parametrize("changes", [*OTHERS, FAST_TURN])
-def test_other_transfers_are_solved_for_every_number_of_intervals(problem, config, changes):
+@pytest.fixture(scope="module", params=[*OTHERS, FAST_TURN], ids=str)
+def other_transfer(request, problem, config):
+    """Another problem and its extremals for some numbers of intervals."""
+    other = replace(problem, **request.param)
+    return other, extremals(other, config, (1, 3, 8))
+
+
+def test_other_transfers_are_solved_for_every_number_of_intervals(other_transfer):
     """One extremal for all K (final times to 1e-8), its conditions met in another integrator."""
-    other = replace(problem, **changes)
-    found = extremals(other, config, (1, 3, 8))
+    other, found = other_transfer
     times = [one.final_time for one in found.values()]
     assert np.ptp(times) < 1e-8
     for one in found.values():
@@ -82,19 +88,19 @@ def test_other_transfers_are_solved_for_every_number_of_intervals(problem, confi
         assert other.final_mass(one.final_time) > 0.0
 
 
-@pytest.mark.parametrize("changes", OTHERS)
-def test_direct_collocation_from_a_rough_guess_finds_no_faster_transfer(problem, config, changes):
-    """Direct collocation, which knows no costate and starts afar, ends at the same time (1e-5).
+def test_direct_collocation_from_a_rough_guess_ends_at_the_same_time(other_transfer):
+    """Direct collocation knows no costate and starts afar; 160 intervals of order 8 agree to 1e-5.
 
-    On 160 intervals of order 8; the mesh's error is what is left.
+    Where the thrust turns faster than the mesh can follow, they agree to 1e-4.
     """
-    other = replace(problem, **changes)
-    found = extremals(other, config)[1]
+    other, found = other_transfer[0], other_transfer[1][1]
+    turns_fast = other.thrust == FAST_TURN["thrust"] and other.final_radius > 1.0
     mesh = Collocation(160, 4, "legendre")
     table = fly_extremal(other, found, 481)[1]
     solution, _ = beyond.direct_collocation(other, table, mesh, rough=True)
     assert solution.converged
-    assert solution.objective == pytest.approx(found.final_time, abs=1e-5)
+    room = 1e-4 if turns_fast else 1e-5
+    assert solution.objective == pytest.approx(found.final_time, abs=room)
 
 
 @pytest.mark.parametrize(
@@ -117,23 +123,15 @@ def test_units_do_not_matter(problem, config, extremal, length, mu, mass):
         assert one.final_time == pytest.approx(extremal.final_time, rel=1e-9)
 
 
-def test_time_falls_with_thrust_and_rises_with_distance(problem, config):
+def test_time_falls_with_thrust_and_rises_with_distance(problem):
     """More thrust is never slower, and a farther orbit never nearer in time."""
-    by_thrust = [
-        extremals(replace(problem, thrust=thrust), config)[1].final_time
-        for thrust in (0.05, 0.1, 0.2, 0.4)
-    ]
-    outwards = [
-        extremals(replace(problem, final_radius=radius), config)[1].final_time
-        for radius in (1.01, 1.2, 2.5, 4.0)
-    ]
-    inwards = [
-        extremals(replace(problem, final_radius=radius), config)[1].final_time
-        for radius in (0.99, 0.8, 0.6, 0.5)
-    ]
-    assert np.all(np.diff(by_thrust) < 0.0)
-    assert np.all(np.diff(outwards) > 0.0)
-    assert np.all(np.diff(inwards) > 0.0)
+
+    def times(key, values):
+        return np.diff([minimum_time(replace(problem, **{key: v})).final_time for v in values])
+
+    assert np.all(times("thrust", (0.05, 0.1, 0.2, 0.4)) < 0.0)
+    assert np.all(times("final_radius", (1.01, 1.2, 2.5, 4.0)) > 0.0)
+    assert np.all(times("final_radius", (0.99, 0.8, 0.6, 0.5)) > 0.0)
 
 
 def _solve(problem, case, extremal, **options):

@@ -78,7 +78,8 @@ def collocation(config: Mapping[str, Any]) -> tuple[pd.DataFrame, list[NotConver
     extremal = extremal_table(dict(config))
     rows, missing = [], []
     if isinstance(extremal, NotConverged):
-        unknown = replace(extremal, case="direct and indirect collocation", status=NO_EXTREMAL)
+        name = "direct and indirect collocation"
+        unknown = replace(extremal, case=name, status=NO_EXTREMAL, residual=np.inf)
         return pd.DataFrame(columns=COLUMNS), [unknown]
     methods: list[Callable[..., tuple[Row, str]]] = [partial(_direct, mesh=m) for m in MESHES]
     for solve in (*methods, _indirect):

@@ -55,7 +55,7 @@ class ConvergenceError(Exception):
     Attributes
     ----------
     residual
-        Largest residual at the end; not a number where there was no flight.
+        Largest residual at the end, to two digits; not a number where there was no flight.
     """
 
     def __init__(self, message: str, residual: float = np.nan):
@@ -154,7 +154,8 @@ def solve_extremal(
     error = float(np.max(np.abs(result.fun)))
     final_time = float(result.x[-1])
     if error > 1e-9 or not 0.0 < final_time < problem.longest_time:
-        raise ConvergenceError(f"residual {error:.1e} at t_f = {final_time:.4f}", error)
+        ended = f"residual {error:.1e} at t_f = {final_time:.4f}"
+        raise ConvergenceError(ended, error_magnitude([error]))
     nodes = np.concatenate([problem.initial_state, result.x[:-1]]).reshape(intervals, 10)
     return Extremal(nodes, final_time, int(result.nfev), error, seconds)
 
