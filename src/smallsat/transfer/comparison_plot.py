@@ -8,7 +8,7 @@ from matplotlib.ticker import MaxNLocator
 
 from smallsat.drawing.style import BLACK, BLUE, CYCLE, GREEN, ORANGE, VERMILION, WIDTH
 from smallsat.transfer.bounds import relative_length
-from smallsat.transfer.missing_plot import mark_missing
+from smallsat.transfer.missing_plot import NOT_CONVERGED, mark_missing
 from smallsat.transfer.printed import printed_cases
 
 
@@ -89,6 +89,8 @@ def mass_history(flown: pd.DataFrame, finals: pd.DataFrame) -> Figure:
     for label, path in flown.groupby("label", sort=False):
         kind = str(finals.loc[finals["label"] == label, "group"].iloc[0])
         left.plot(path["tau"], path["m"], color=colours[kind], lw=0.8)
+    if flown.empty:
+        mark_missing(left)
     left.set_xlabel(r"$\tau$")
     left.set_ylabel("mass")
     for group, rows in finals.groupby("group", sort=False):
@@ -125,6 +127,8 @@ def mass_above_printed(finals: pd.DataFrame) -> Figure:
         axes.plot(
             position, gap.where(gap > 0), marker, ms=4, color=colour, label=column.replace("_", " ")
         )
+    if finals["optimum"].isna().all():
+        mark_missing(axes)
     above = finals["printed"] > finals["optimum"]
     for place in position[above]:
         axes.annotate(
@@ -213,6 +217,8 @@ def continuity_figure(table: pd.DataFrame, optimum: float) -> Figure:
             label=f"K = {intervals}",
         )
         axes.semilogy(group["degree"], group["continuous"] - optimum, "--s", ms=3, color=colour)
+    if table.empty:
+        mark_missing(axes)
     axes.set_xlabel("degree N")
     axes.set_ylabel(r"$t_f$ minus the optimum")
     axes.set_xticks(sorted(table["degree"].unique()))
@@ -270,7 +276,8 @@ def _surfaces(
         x, y = np.meshgrid(grid.columns, grid.index)
         height = grid.to_numpy(dtype=float) * (scale or {}).get(column, 1.0)
         if min(height.shape, default=0) < 2 or np.isnan(height).all():
-            mark_missing(axes, "too few cases for a surface")
+            solved = not (height.size and np.isnan(height).all())
+            mark_missing(axes, "too few cases for a surface" if solved else NOT_CONVERGED)
             axes.set_axis_off()
             continue
         axes.plot_surface(y, x, height, cmap="viridis", alpha=0.85, edgecolor="#333333", lw=0.4)
