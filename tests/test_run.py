@@ -73,6 +73,8 @@ def refusal(*, files=(), entries=()) -> str:
         ("run=two\nlines", ("run", "'two\\nlines'")),
         ('transfer={"problem": {"thrust": .nan}}', ("transfer.problem.thrust", "nan", "number")),
         ('transfer={"problem": {"thrust": 12:30}}', ("transfer.problem.thrust", "12:30", "number")),
+        ('transfer={"problem": {"thrust": 010}}', ("transfer.problem.thrust", "'010'", "number")),
+        ('transfer={"problem": {"thrust": 1e999}}', ("transfer.problem.thrust", "inf", "number")),
     ],
 )
 def test_a_wrong_setting(setting, words):
