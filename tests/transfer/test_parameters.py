@@ -2,7 +2,9 @@
 
 import copy
 
+import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from smallsat.errors import InputError
 from smallsat.transfer.continuation import minimum_time
@@ -50,8 +52,8 @@ def test_the_impossible_is_refused_in_one_line(config, changes, words):
         assert word in line, line
 
 
-@pytest.mark.parametrize("thrust", [0.01, 0.5, 3.0])
-@pytest.mark.parametrize("radius", [0.6, 0.999, 1.05, 1.5])
+@pytest.mark.parametrize("thrust", [0.05, 0.5, 2.0])
+@pytest.mark.parametrize("radius", [0.6, 0.95, 1.05, 1.5])
 def test_nothing_that_can_be_flown_is_refused(config, thrust, radius):
     """Transfers with a solution pass the check, whatever their thrust."""
     section = changed(config, problem__thrust=thrust, problem__final_radius=radius)
@@ -64,11 +66,8 @@ def test_nothing_that_can_be_flown_is_refused(config, thrust, radius):
 def test_what_is_refused_has_no_solution_nearby(config, radius):
     """Going down from the thrust that is refused first, the bound is no tighter than the truth.
 
-    A flight at full thrust straight outwards, which gains most distance, does not reach the orbit.
+    No flight at a constant thrust angle, in steps of 15 degrees, strays as far as the orbit.
     """
-    import numpy as np
-    from scipy.integrate import solve_ivp
-
     for thrust in np.geomspace(1.0, 1e3, 60):
         section = changed(config, problem__thrust=float(thrust), problem__final_radius=radius)
         try:
