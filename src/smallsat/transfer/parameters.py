@@ -50,8 +50,8 @@ def _may_arrive(problem: TransferProblem) -> bool:
     tubes = TUBES * min(distance, 1.0)
     gradient = 2.0 / (1.0 - tubes) ** 3
     with np.errstate(over="ignore"):
-        strayed = np.cosh(np.sqrt(gradient) * one.longest_time)
-    return bool(np.all(strayed * one.exhaust_speed * one.longest_time >= tubes))
+        strayed = np.cosh(np.sqrt(gradient) * one.longest_time) * one.exhaust_speed
+        return bool(np.all(strayed * one.longest_time >= tubes))
 
 
 def _check_bounds(bounds: Config, guess: Config) -> None:
