@@ -75,6 +75,7 @@ def refusal(*, files=(), entries=()) -> str:
         ('transfer={"problem": {"thrust": 12:30}}', ("transfer.problem.thrust", "12:30", "number")),
         ('transfer={"problem": {"thrust": 010}}', ("transfer.problem.thrust", "'010'", "number")),
         ('transfer={"problem": {"thrust": 1e999}}', ("transfer.problem.thrust", "inf", "number")),
+        ('mars={"orbits": {"mars_radius_km": 5e99}}', ("mars_radius_km", "5e+99", "in size")),
     ],
 )
 def test_a_wrong_setting(setting, words):

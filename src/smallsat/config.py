@@ -3,7 +3,6 @@
 import difflib
 import hashlib
 import json
-import math
 import re
 import reprlib
 from collections.abc import Iterable, Iterator
@@ -17,11 +16,14 @@ from smallsat.strict_yaml import parse_yaml, read_yaml
 
 Config = dict[str, Any]
 
+# Sizes of numbers: no quantity of a mission lies beyond, and squares and cubes stay numbers.
+SMALLEST, LARGEST = 1e-30, 1e30
+
 _Validator = jsonschema.validators.extend(
     jsonschema.Draft202012Validator,
     type_checker=jsonschema.Draft202012Validator.TYPE_CHECKER.redefine(
-        "number", lambda _, value: _is_finite(value)
-    ).redefine("integer", lambda _, value: _is_finite(value) and value == int(value)),
+        "number", lambda _, value: _is_quantity(value)
+    ).redefine("integer", lambda _, value: _is_quantity(value) and value == int(value)),
 )
 # A key of `--config`, as Snakemake takes it.
 _KEY = re.compile(r"[a-zA-Z_][\w-]*\w")
@@ -137,13 +139,12 @@ def merged(config: Any, overlay: Any) -> Any:
     return overlay
 
 
-def _is_finite(value: Any) -> bool:
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        return False
-    try:
-        return math.isfinite(value)
-    except OverflowError:
-        return False
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _is_quantity(value: Any) -> bool:
+    return _is_number(value) and (value == 0 or SMALLEST <= abs(value) <= LARGEST)
 
 
 def _in_one_form(value: Any, schema: Any, root: dict[str, Any]) -> Any:
@@ -155,7 +156,7 @@ def _in_one_form(value: Any, schema: Any, root: dict[str, Any]) -> Any:
     if isinstance(value, list):
         return [_in_one_form(v, schema.get("items", {}), root) for v in value]
     wanted = schema.get("type")
-    if wanted == "number" and _is_finite(value):
+    if wanted == "number" and _is_quantity(value):
         return float(value)
     if wanted == "integer" and isinstance(value, float) and value.is_integer():
         return int(value)
@@ -177,6 +178,13 @@ def _one_line(error: jsonschema.ValidationError) -> str:
         missing = error.message.split("'")[1]
         return f"config key '{f'{path}.{missing}' if path else missing}': missing; add it"
     where = f"config key '{path}'" if path else "configuration"
+    if (
+        error.validator == "type"
+        and _is_number(error.instance)
+        and not _is_quantity(error.instance)
+    ):
+        size = f"must be a number, 0 or between {SMALLEST:g} and {LARGEST:g} in size"
+        return f"{where}: {_shown(error.instance)} is not allowed; {size}"
     return f"{where}: {_shown(error.instance)} is not allowed; {', '.join(_allowed(error))}"
 
 

@@ -119,7 +119,7 @@ def test_quarter_turn_is_the_bang_coast_bang_by_hand(section, given):
 
 def test_half_turn_in_the_printed_time_is_refused(section, given):
     """No plan exists in that time; the least-infeasible one converges and misses its end."""
-    assert minimum_time.bound_time(given, True) > 100.0
+    assert bound_time(given, True) > 100.0
     model = guidance_model(given)
     result, refused = least_infeasible(model, given, "half", 100.0, Mesh(10, 6), section)
     assert not refused.converged

@@ -14,6 +14,9 @@ from pathlib import Path
 
 import pytest
 
+# What a running make hands down.
+MAKE = ("MAKEFLAGS", "MAKELEVEL", "MFLAGS", "MAKE_TERMOUT", "MAKE_TERMERR")
+
 
 @dataclass(frozen=True)
 class Project:
@@ -106,7 +109,9 @@ def make_project(root: Path, tmp_path_factory) -> Callable[[], Project]:
         shutil.copytree(root, folder, ignore=unwanted, dirs_exist_ok=True)
         make_environment(folder)
         path = [str(folder / ".venv/bin"), *os.environ["PATH"].split(os.pathsep)]
-        environment = os.environ | {
+        # Nothing of a `make` that runs the tests: a command of the README is typed by itself.
+        outside = {name: value for name, value in os.environ.items() if name not in MAKE}
+        environment = outside | {
             "PATH": os.pathsep.join(
                 part for part in path if part != str(Path(sys.executable).parent)
             )
