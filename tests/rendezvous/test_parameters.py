@@ -35,7 +35,7 @@ def refuse(config, keys, value):
         (["start", "position_m"], [10.0, -50.0, 0.0], "inside the keep-out zone"),
         (["inferred", "overshoot_m"], 5000.0, "must be less than"),
         (["phases", "far", "horizon"], 0, "must be at least 1"),
-        (["phases", "mid", "sample_time_s"], -20.0, "must be greater than 0"),
+        (["phases", "mid", "sample_time_s"], -20.0, "must be at least 0.1"),
         (["phases", "final", "cone_angle_deg"], 90.0, "must be less than"),
         (["phases", "far", "control_bound_m_s"], 0.0, "must be greater than 0"),
         (["phases", "final", "control_bound_m_s"], 0.5, "burn 14 s for it"),
