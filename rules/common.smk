@@ -39,10 +39,28 @@ def targets(document, *kinds):
     ]
 
 
+def extra_tables(study):
+    """Tables beyond the document that the report of a study shows."""
+    return [entry["table"] for entry in EXTRAS.get(study, []) if entry.get("table")]
+
+
+def report_figures(study):
+    """Figures that the report of a study shows."""
+    extras = [stem for entry in EXTRAS.get(study, []) for stem in entry.get("figures") or []]
+    return targets(study, "figure") + [f"{stem}.svg" for stem in extras]
+
+
 def as_json(value):
     """A parameter for a command line; sorted, so that equal values are equal text."""
     return json.dumps(value, sort_keys=True)
 
+
+# Tables and figures that go beyond a document.
+EXTRAS = {
+    study: read_yaml(path) or []
+    for study in STUDIES
+    if (path := ROOT / f"data/published/{study}/extras.yaml").exists()
+}
 
 # What the verdicts of a study rest on; each study's rule file adds its own.
 STUDY_RESULTS = {}

@@ -1,23 +1,5 @@
 # The report: its content collected from the results, then typeset as a PDF and as a web page.
 # It is built whatever the verdicts are, so that a wrong one can be read about.
-EXTRAS = {
-    study: read_yaml(path) or []
-    for study in STUDIES
-    if (path := ROOT / f"data/published/{study}/extras.yaml").exists()
-}
-
-
-def extra_tables(study):
-    """Tables beyond the document that the report of a study shows."""
-    return [entry["table"] for entry in EXTRAS.get(study, []) if entry.get("table")]
-
-
-def report_figures(study):
-    """Figures that the report of a study shows."""
-    extras = [stem for entry in EXTRAS.get(study, []) for stem in entry.get("figures") or []]
-    return targets(study, "figure") + [f"{stem}.svg" for stem in extras]
-
-
 FIGURES = [figure for study in STUDIES for figure in report_figures(study)]
 TABLES = [table for study in STUDIES for table in targets(study, "table") + extra_tables(study)]
 # The text of each study's method.
