@@ -13,12 +13,12 @@ from pathlib import Path
 
 from smallsat.errors import InputError
 from smallsat.evidence.ledger import read_artefacts, read_ledger
-from smallsat.isolation import isolate
-from smallsat.racing.parameters import parameters as racing_parameters
-from smallsat.run import read_run
-from smallsat.sources import source_files
+from smallsat.workflow.isolation import isolate
+from smallsat.studies.racing.parameters import parameters as racing_parameters
+from smallsat.workflow.run import read_run
+from smallsat.workflow.sources import source_files
 from smallsat.strict_yaml import read_yaml
-from smallsat.targets import refusal
+from smallsat.workflow.targets import refusal
 
 
 # The environment is .venv, made from requirements.lock. Snakemake's linter asks for a container

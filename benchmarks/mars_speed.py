@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 
 from smallsat.config import read_yaml
-from smallsat.mars.parameters import Parameters, parameters
-from smallsat.mars.simulation import AUTOMATIC, run
+from smallsat.studies.mars.methods.simulation import AUTOMATIC, run
+from smallsat.studies.mars.parameters import Parameters, parameters
 
 CONFIG = Path(__file__).parents[1] / "config/default.yaml"
 REPETITIONS = 5

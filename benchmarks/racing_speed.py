@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 
 from smallsat.config import read_yaml
-from smallsat.racing.course import generate
-from smallsat.racing.course_program import CourseProgram
-from smallsat.racing.cubesat import CubeSat
-from smallsat.racing.parameters import parameters
-from smallsat.racing.races import fly_as_published, fly_optima, whole_leg
+from smallsat.studies.racing.methods.course_program import CourseProgram
+from smallsat.studies.racing.methods.races import fly_as_published, fly_optima, whole_leg
+from smallsat.studies.racing.model.course import generate
+from smallsat.studies.racing.model.cubesat import CubeSat
+from smallsat.studies.racing.parameters import parameters
 
 CONFIG = Path(__file__).parents[1] / "config/default.yaml"
 COURSES = 20

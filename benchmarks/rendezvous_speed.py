@@ -12,13 +12,18 @@ from pathlib import Path
 import numpy as np
 
 from smallsat.config import read_yaml
-from smallsat.rendezvous import back_ends, reference_loop
-from smallsat.rendezvous.closed_loop import Manoeuvres, manoeuvres
-from smallsat.rendezvous.disturbances import disturbances
-from smallsat.rendezvous.disturbed_loop import disturbed_manoeuvres
-from smallsat.rendezvous.initial_states import IN_PLANE, Distribution, initial_states
-from smallsat.rendezvous.parameters import law, start_state
-from smallsat.rendezvous.random_streams import stream
+from smallsat.statistics.random_streams import stream
+from smallsat.studies.rendezvous.methods import qp_solvers as back_ends
+from smallsat.studies.rendezvous.monte_carlo.initial_states import (
+    IN_PLANE,
+    Distribution,
+    initial_states,
+)
+from smallsat.studies.rendezvous.parameters import law, start_state
+from smallsat.studies.rendezvous.simulation import reference_loop
+from smallsat.studies.rendezvous.simulation.closed_loop import Manoeuvres, manoeuvres
+from smallsat.studies.rendezvous.simulation.disturbances import disturbances
+from smallsat.studies.rendezvous.simulation.disturbed_loop import disturbed_manoeuvres
 
 CONFIG = Path(__file__).parents[1] / "config/default.yaml"
 MANOEUVRES = 200

@@ -11,13 +11,13 @@ from pathlib import Path
 import pandas as pd
 
 from smallsat.config import read_yaml
-from smallsat.rendezvous.closed_loop import manoeuvres
-from smallsat.rendezvous.disturbances import disturbances
-from smallsat.rendezvous.disturbed_loop import disturbed_manoeuvres
-from smallsat.rendezvous.random_streams import stream
-from smallsat.rendezvous.studies import states_table
-from smallsat.rendezvous.study_cases import base
-from smallsat.rendezvous.study_tables import STATE
+from smallsat.statistics.random_streams import stream
+from smallsat.studies.rendezvous.monte_carlo.cases import base
+from smallsat.studies.rendezvous.monte_carlo.studies import states_table
+from smallsat.studies.rendezvous.monte_carlo.tables import STATE
+from smallsat.studies.rendezvous.simulation.closed_loop import manoeuvres
+from smallsat.studies.rendezvous.simulation.disturbances import disturbances
+from smallsat.studies.rendezvous.simulation.disturbed_loop import disturbed_manoeuvres
 
 ROOT = Path(__file__).parents[1]
 SAMPLES = (125, 250, 500, 1000)

@@ -12,9 +12,9 @@ import numpy as np
 
 from smallsat.config import read_yaml
 from smallsat.optimal_control.gauss_pseudospectral import Mesh
-from smallsat.slew.guidance import Guidance, Result, problem, turning_guess
-from smallsat.slew.parameters import Parameters, parameters
-from smallsat.slew.plans import guidance_model
+from smallsat.studies.slew.methods.guidance_problem import Guidance, Result, problem, turning_guess
+from smallsat.studies.slew.methods.plans import guidance_model
+from smallsat.studies.slew.parameters import Parameters, parameters
 
 CONFIG = Path(__file__).parents[1] / "config/default.yaml"
 REPETITIONS = 3

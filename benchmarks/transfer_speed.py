@@ -14,9 +14,14 @@ from scipy.optimize import minimize
 
 from smallsat.config import read_yaml
 from smallsat.optimal_control.nonlinear_program import SlsqpSolver
-from smallsat.transfer import experiments
-from smallsat.transfer.direct import Case, interval_ends, published_guess, shooting_program
-from smallsat.transfer.problem import TransferProblem
+from smallsat.studies.transfer.methods import experiments
+from smallsat.studies.transfer.methods.direct import (
+    Case,
+    interval_ends,
+    published_guess,
+    shooting_program,
+)
+from smallsat.studies.transfer.model.problem import TransferProblem
 
 ROOT = Path(__file__).parents[1]
 # Cases that the port solves in reasonable time.

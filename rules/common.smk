@@ -76,7 +76,7 @@ ANIMATIONS = []
 
 # A notebook is run by papermill; the executed notebook is an output for the reader.
 NOTEBOOK = (
-    "python -m smallsat.notebook {input.notebook} {output.notebook}"
+    "python -m smallsat.workflow.notebook {input.notebook} {output.notebook}"
     " --parameters {params.parameters:q} > {log} 2>&1"
 )
-NOTEBOOK_SOURCES = sources("smallsat.notebook")
+NOTEBOOK_SOURCES = sources("smallsat.workflow.notebook")

@@ -41,7 +41,7 @@ for name, figures in list(MARS_SCENES.items()):
 
 rule mars_simulation:
     input:
-        sources=sources("smallsat.mars.__main__"),
+        sources=sources("smallsat.studies.mars.steps"),
     output:
         multiext(
             f"{MARS}/",
@@ -62,13 +62,13 @@ rule mars_simulation:
     message:
         "mars: fly every pointing mode, the mission and the day"
     shell:
-        "python -m smallsat.mars simulate --config {params.config:q}"
+        "python -m smallsat.studies.mars.steps simulate --config {params.config:q}"
         " --output-folder {params.folder} > {log} 2>&1"
 
 
 rule mars_independent_check:
     input:
-        sources=sources("smallsat.mars.__main__"),
+        sources=sources("smallsat.studies.mars.steps"),
     output:
         f"{MARS}/independent.parquet",
     log:
@@ -81,7 +81,7 @@ rule mars_independent_check:
     message:
         "mars: integrate everything again with quaternions"
     shell:
-        "python -m smallsat.mars check --config {params.config:q}"
+        "python -m smallsat.studies.mars.steps check --config {params.config:q}"
         " --output-folder {params.folder} > {log} 2>&1"
 
 
@@ -94,7 +94,7 @@ for name, figures in MARS_SCHEMATICS.items():
             notebook=project("notebooks/mars/schematics.ipynb"),
             sources=NOTEBOOK_SOURCES
             + sources(
-                "smallsat.mars.schematics", "smallsat.drawing.figure", "smallsat.drawing.style"
+                "smallsat.studies.mars.figures.schematics", "smallsat.drawing.figure", "smallsat.drawing.style"
             ),
         output:
             figure_files(*[f"figures/mars/{figure}" for figure in figures]),
@@ -122,7 +122,7 @@ for name, figures in MARS_RESPONSES.items():
             notebook=project("notebooks/mars/responses.ipynb"),
             sources=NOTEBOOK_SOURCES
             + sources(
-                "smallsat.mars.response_plot",
+                "smallsat.studies.mars.figures.responses",
                 "smallsat.drawing.figure",
                 "smallsat.drawing.style",
                 "smallsat.results",
@@ -158,7 +158,7 @@ for name, figures in MARS_SCENES.items():
             notebook=project("notebooks/mars/scenes.ipynb"),
             sources=NOTEBOOK_SOURCES
             + sources(
-                "smallsat.mars.scene",
+                "smallsat.studies.mars.figures.scenes",
                 "smallsat.drawing.figure",
                 "smallsat.drawing.style",
                 "smallsat.results",
@@ -191,7 +191,7 @@ rule mars_day_modes:
         notebook=project("notebooks/mars/day-modes.ipynb"),
         sources=NOTEBOOK_SOURCES
         + sources(
-            "smallsat.mars.mode_plot",
+            "smallsat.studies.mars.figures.day_modes",
             "smallsat.drawing.figure",
             "smallsat.drawing.style",
             "smallsat.results",
@@ -235,7 +235,7 @@ for run, (film, trajectory, step) in MARS_FILMS.items():
             notebook=project("notebooks/mars/animation.ipynb"),
             sources=NOTEBOOK_SOURCES
             + sources(
-                "smallsat.mars.animation",
+                "smallsat.studies.mars.figures.animation",
                 "smallsat.drawing.film",
                 "smallsat.drawing.style",
                 "smallsat.results",

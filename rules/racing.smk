@@ -1,5 +1,5 @@
 # Racing: CubeSats through rings, as published and as it should have been run.
-from smallsat.racing.parameters import course_files
+from smallsat.studies.racing.parameters import course_files
 
 RACING = "data/results/racing"
 RACING_SECTION = config["racing"]
@@ -101,9 +101,9 @@ RACING_GROUPS = {
 }
 RACING_BEYOND = ["missed-rings", "scores", "random-courses", "meshes", "thrust"]
 RACING_DRAWING = NOTEBOOK_SOURCES + sources(
-    "smallsat.racing.drawing",
-    "smallsat.racing.plots",
-    "smallsat.racing.scores",
+    "smallsat.studies.racing.figures.drawing",
+    "smallsat.studies.racing.figures.plots",
+    "smallsat.studies.racing.evidence.scores",
     "smallsat.drawing.figure",
     "smallsat.drawing.style",
     "smallsat.results",
@@ -116,7 +116,7 @@ for name, (command, arguments, files) in RACING_RUNS.items():
         name:
             f"racing_{name.replace('-', '_')}"
         input:
-            sources=sources("smallsat.racing.__main__"),
+            sources=sources("smallsat.studies.racing.steps"),
             courses=RACING_COURSE_FILES,
         output:
             [f"{RACING}/{file}" for file in files],
@@ -132,13 +132,13 @@ for name, (command, arguments, files) in RACING_RUNS.items():
         message:
             f"racing: {name}"
         shell:
-            "python -m smallsat.racing {params.command} --config {params.config:q}"
+            "python -m smallsat.studies.racing.steps {params.command} --config {params.config:q}"
             " --output-folder {params.folder} {params.arguments} > {log} 2>&1"
 
 
 rule racing_observations:
     input:
-        sources=sources("smallsat.racing.__main__"),
+        sources=sources("smallsat.studies.racing.steps"),
         courses=RACING_COURSE_FILES,
         tables=RACING_TABLES,
         seconds=[f"{RACING}/{kind}-scenario-2-seconds.csv" for kind in ("as-published", "optima")],
@@ -156,7 +156,7 @@ rule racing_observations:
     message:
         "racing: put the races together, observe the published values"
     shell:
-        "python -m smallsat.racing observe --config {params.config:q}"
+        "python -m smallsat.studies.racing.steps observe --config {params.config:q}"
         " --output-folder {params.folder} > {log} 2>&1"
 
 
@@ -302,7 +302,7 @@ for scenario, film in RACING_FILMS.items():
         input:
             notebook=project("notebooks/racing/animation.ipynb"),
             sources=NOTEBOOK_SOURCES
-            + sources("smallsat.racing.animation", "smallsat.drawing.style", "smallsat.results"),
+            + sources("smallsat.studies.racing.figures.animation", "smallsat.drawing.style", "smallsat.results"),
             tables=[
                 f"{RACING}/course-{scenario}.csv",
                 f"{RACING}/optima-{scenario}-trajectories.parquet",

@@ -53,8 +53,8 @@ RENDEZVOUS_FIGURES = {
 }
 RENDEZVOUS_BEYOND = ["residuals", "profiles", "readings"]
 RENDEZVOUS_DRAWING = NOTEBOOK_SOURCES + sources(
-    "smallsat.rendezvous.plots",
-    "smallsat.rendezvous.schematics",
+    "smallsat.studies.rendezvous.figures.cases",
+    "smallsat.studies.rendezvous.figures.schematics",
     "smallsat.drawing.figure",
     "smallsat.drawing.style",
     "smallsat.results",
@@ -63,7 +63,7 @@ RENDEZVOUS_DRAWING = NOTEBOOK_SOURCES + sources(
 
 rule rendezvous_flights:
     input:
-        sources=sources("smallsat.rendezvous.__main__"),
+        sources=sources("smallsat.studies.rendezvous.steps"),
     output:
         [f"{RENDEZVOUS}/{name}" for name in RENDEZVOUS_FLIGHTS],
     log:
@@ -76,7 +76,7 @@ rule rendezvous_flights:
     message:
         "rendezvous: fly the cases"
     shell:
-        "python -m smallsat.rendezvous fly --config {params.config:q}"
+        "python -m smallsat.studies.rendezvous.steps fly --config {params.config:q}"
         " --output-folder {params.folder} > {log} 2>&1"
 
 
@@ -87,7 +87,7 @@ for side in ("above", "below"):
         name:
             f"rendezvous_search_{side}"
         input:
-            sources=sources("smallsat.rendezvous.__main__"),
+            sources=sources("smallsat.studies.rendezvous.steps"),
         output:
             f"{RENDEZVOUS}/search-{side}.parquet",
         log:
@@ -101,13 +101,13 @@ for side in ("above", "below"):
         message:
             f"rendezvous: search undisclosed parameters, R-bar from {side}"
         shell:
-            "python -m smallsat.rendezvous search --side {params.side} --config {params.config:q}"
+            "python -m smallsat.studies.rendezvous.steps search --side {params.side} --config {params.config:q}"
             " --output-folder {params.folder} > {log} 2>&1"
 
 
 rule rendezvous_inference:
     input:
-        sources=sources("smallsat.rendezvous.__main__"),
+        sources=sources("smallsat.studies.rendezvous.steps"),
         searches=[f"{RENDEZVOUS}/search-{side}.parquet" for side in ("above", "below")],
     output:
         [f"{RENDEZVOUS}/{name}" for name in RENDEZVOUS_INFERRED],
@@ -121,13 +121,13 @@ rule rendezvous_inference:
     message:
         "rendezvous: what the tables identify, and what they leave open"
     shell:
-        "python -m smallsat.rendezvous infer --config {params.config:q}"
+        "python -m smallsat.studies.rendezvous.steps infer --config {params.config:q}"
         " --output-folder {params.folder} > {log} 2>&1"
 
 
 rule rendezvous_observations:
     input:
-        sources=sources("smallsat.rendezvous.__main__"),
+        sources=sources("smallsat.studies.rendezvous.steps"),
         phases=f"{RENDEZVOUS}/phases.csv",
         flights=f"{RENDEZVOUS}/flights.parquet",
         studies=STUDIES_JUDGED,
@@ -144,7 +144,7 @@ rule rendezvous_observations:
     message:
         "rendezvous: observe the published values"
     shell:
-        "python -m smallsat.rendezvous observe --config {params.config:q}"
+        "python -m smallsat.studies.rendezvous.steps observe --config {params.config:q}"
         " --output-folder {params.folder} > {log} 2>&1"
 
 
@@ -212,7 +212,7 @@ rule rendezvous_inference_figures:
         notebook=project("notebooks/rendezvous/inference.ipynb"),
         sources=NOTEBOOK_SOURCES
         + sources(
-            "smallsat.rendezvous.inference_plots",
+            "smallsat.studies.rendezvous.figures.inference",
             "smallsat.drawing.figure",
             "smallsat.drawing.style",
             "smallsat.results",
@@ -247,7 +247,7 @@ rule rendezvous_film:
         notebook=project("notebooks/rendezvous/animation.ipynb"),
         sources=NOTEBOOK_SOURCES
         + sources(
-            "smallsat.rendezvous.animation",
+            "smallsat.studies.rendezvous.figures.animation",
             "smallsat.drawing.film",
             "smallsat.drawing.style",
             "smallsat.results",

@@ -6,7 +6,7 @@ ENGINE_SECONDS = "data/results/rendezvous/solver-seconds.csv"
 
 rule rendezvous_engine:
     input:
-        sources=sources("smallsat.rendezvous.engine_checks"),
+        sources=sources("smallsat.studies.rendezvous.methods.engine_checks"),
     output:
         ENGINE_TABLES,
         ENGINE_SECONDS,
@@ -20,5 +20,5 @@ rule rendezvous_engine:
     message:
         "rendezvous: compare the solvers, look at the constraints between samples"
     shell:
-        "python -m smallsat.rendezvous.engine_checks --config {params.config:q}"
+        "python -m smallsat.studies.rendezvous.methods.engine_checks --config {params.config:q}"
         " --output-folder {params.folder} > {log} 2>&1"

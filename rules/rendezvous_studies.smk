@@ -34,7 +34,7 @@ STUDY_STARTS = {
     "passages": "disturbed-states.parquet",
 }
 STUDY_TABLES = [f"{STUDIES_FOLDER}/{group}.parquet" for group in STUDY_GROUPS]
-STUDY_SOURCES = sources("smallsat.rendezvous.studies")
+STUDY_SOURCES = sources("smallsat.studies.rendezvous.monte_carlo.studies")
 STUDY_SUMMARIES = [
     f"{STUDIES_FOLDER}/{name}.csv"
     for name in (
@@ -64,9 +64,9 @@ ROBUSTNESS_FIGURES = ["fig-5-1", "fig-5-2", "bounce"]
 VARIANT_FIGURES = ["weights", "delay", "prediction", "disturbances"]
 STUDIES_BEYOND = ["sweeps", "bounce", *VARIANT_FIGURES]
 STUDY_DRAWING = NOTEBOOK_SOURCES + sources(
-    "smallsat.rendezvous.sensitivity_plots",
-    "smallsat.rendezvous.robustness_plots",
-    "smallsat.rendezvous.robustness_claims",
+    "smallsat.studies.rendezvous.figures.sensitivity",
+    "smallsat.studies.rendezvous.figures.robustness",
+    "smallsat.studies.rendezvous.evidence.robustness_claims",
     "smallsat.drawing.figure",
     "smallsat.drawing.style",
     "smallsat.results",
@@ -104,7 +104,7 @@ rule rendezvous_states:
     message:
         "rendezvous: draw the initial states"
     shell:
-        "python -m smallsat.rendezvous.studies states --config {params.config:q}"
+        "python -m smallsat.studies.rendezvous.monte_carlo.studies states --config {params.config:q}"
         " --folder {params.folder} > {log} 2>&1"
 
 
@@ -133,7 +133,7 @@ for group in STUDY_GROUPS:
             message:
                 f"rendezvous: fly {group}, shard {shard} of {SHARDS}"
             shell:
-                "python -m smallsat.rendezvous.studies shard {params.group}"
+                "python -m smallsat.studies.rendezvous.monte_carlo.studies shard {params.group}"
                 " --shard {params.shard} --shards {params.shards} --config {params.config:q}"
                 " --folder {params.folder} --output {output} > {log} 2>&1"
 
@@ -157,13 +157,13 @@ for group in STUDY_GROUPS:
         message:
             f"rendezvous: join the shards of {group}"
         shell:
-            "python -m smallsat.rendezvous.studies merge {params.group} {input.shards}"
+            "python -m smallsat.studies.rendezvous.monte_carlo.studies merge {params.group} {input.shards}"
             " --output {output} > {log} 2>&1"
 
 
 rule rendezvous_summaries:
     input:
-        sources=sources("smallsat.rendezvous.study_summaries"),
+        sources=sources("smallsat.studies.rendezvous.monte_carlo.summaries"),
         tables=STUDY_TABLES,
     output:
         STUDY_SUMMARIES,
@@ -177,7 +177,7 @@ rule rendezvous_summaries:
     message:
         "rendezvous: summarise the studies"
     shell:
-        "python -m smallsat.rendezvous.study_summaries --config {params.config:q}"
+        "python -m smallsat.studies.rendezvous.monte_carlo.summaries --config {params.config:q}"
         " --folder {params.folder} > {log} 2>&1"
 
 

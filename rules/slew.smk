@@ -1,6 +1,6 @@
 # Slew: torque-optimal turns of a CubeSat with degraded reaction wheels.
 
-from smallsat.slew.bound import plan_titles
+from smallsat.studies.slew.methods.bound import plan_titles
 
 SLEW = "data/results/slew"
 SLEW_SECTION = config["slew"]
@@ -63,8 +63,8 @@ SLEW_PLANS = {"plan-quarter": ("fig-09", "quarter"), "plan-half": ("fig-13", "ha
 SLEW_SCHEMATICS = ["fig-01", "fig-17", "fig-18", "fig-19"]
 SLEW_BEYOND = ["trade-off", "degradation", "tracking"]
 SLEW_DRAWING = NOTEBOOK_SOURCES + sources(
-    "smallsat.slew.plots",
-    "smallsat.slew.schematics",
+    "smallsat.studies.slew.figures.motions",
+    "smallsat.studies.slew.figures.schematics",
     "smallsat.drawing.figure",
     "smallsat.drawing.style",
     "smallsat.results",
@@ -77,7 +77,7 @@ for name, files in SLEW_RUNS.items():
         name:
             f"slew_{name.replace('-', '_')}"
         input:
-            sources=sources("smallsat.slew.__main__"),
+            sources=sources("smallsat.studies.slew.steps"),
         output:
             [f"{SLEW}/{file}" for file in files],
         log:
@@ -91,13 +91,13 @@ for name, files in SLEW_RUNS.items():
         message:
             f"slew: {name}"
         shell:
-            "python -m smallsat.slew {params.command} --config {params.config:q}"
+            "python -m smallsat.studies.slew.steps {params.command} --config {params.config:q}"
             " --output-folder {params.folder} > {log} 2>&1"
 
 
 rule slew_observations:
     input:
-        sources=sources("smallsat.slew.__main__"),
+        sources=sources("smallsat.studies.slew.steps"),
         tables=SLEW_TABLES,
         seconds=f"{SLEW}/plan-seconds.csv",
     output:
@@ -114,7 +114,7 @@ rule slew_observations:
     message:
         "slew: observe the published values"
     shell:
-        "python -m smallsat.slew observe --config {params.config:q}"
+        "python -m smallsat.studies.slew.steps observe --config {params.config:q}"
         " --output-folder {params.folder} > {log} 2>&1"
 
 

@@ -45,7 +45,7 @@ for experiment in ("indirect", "converged", "continuous"):
         name:
             f"transfer_{experiment}"
         input:
-            sources("smallsat.transfer.solve"),
+            sources("smallsat.studies.transfer.solve"),
         output:
             CASE_FILES[experiment],
             UNSOLVED[experiment],
@@ -59,13 +59,13 @@ for experiment in ("indirect", "converged", "continuous"):
         message:
             f"transfer: solve the {experiment} cases"
         shell:
-            "python -m smallsat.transfer.solve {params.experiment} --config {params.config:q}"
+            "python -m smallsat.studies.transfer.solve {params.experiment} --config {params.config:q}"
             f" --results {TRANSFER} > {{log}} 2>&1"
 
 
 rule transfer_multistart:
     input:
-        sources("smallsat.transfer.solve"),
+        sources("smallsat.studies.transfer.solve"),
     output:
         CASE_FILES["multistart"],
         f"{TRANSFER}/multistart-starts.csv",
@@ -79,7 +79,7 @@ rule transfer_multistart:
     message:
         "transfer: search the best single polynomials from many starts"
     shell:
-        "python -m smallsat.transfer.solve multistart --config {params.config:q}"
+        "python -m smallsat.studies.transfer.solve multistart --config {params.config:q}"
         f" --results {TRANSFER} > {{log}} 2>&1"
 
 
@@ -90,7 +90,7 @@ for intervals in TRANSFER_SHARDS:
         name:
             f"transfer_as_published_k{intervals}"
         input:
-            sources("smallsat.transfer.solve"),
+            sources("smallsat.studies.transfer.solve"),
         output:
             CASE_FILES[f"as-published-k{intervals}"],
         log:
@@ -105,14 +105,14 @@ for intervals in TRANSFER_SHARDS:
         message:
             f"transfer: solve as published, K = {intervals}"
         shell:
-            "python -m smallsat.transfer.solve as-published --config {params.config:q}"
+            "python -m smallsat.studies.transfer.solve as-published --config {params.config:q}"
             " --intervals {params.intervals}"
             f" --results {TRANSFER} > {{log}} 2>&1"
 
 
 rule transfer_gather:
     input:
-        sources("smallsat.transfer.observe"),
+        sources("smallsat.studies.transfer.observe"),
         shards=[CASE_FILES[f"as-published-k{k}"] for k in TRANSFER_SHARDS],
         ledger=project("data/published/values.csv"),
     output:
@@ -127,13 +127,13 @@ rule transfer_gather:
     message:
         "transfer: gather the as-published cases, compare with Table 4"
     shell:
-        "python -m smallsat.transfer.observe gather --intervals {params.intervals:q}"
+        "python -m smallsat.studies.transfer.observe gather --intervals {params.intervals:q}"
         f" --results {TRANSFER} > {{log}} 2>&1"
 
 
 rule transfer_collocation:
     input:
-        sources("smallsat.transfer.solve"),
+        sources("smallsat.studies.transfer.solve"),
     output:
         f"{TRANSFER}/collocation.csv",
         f"{TRANSFER}/collocation-seconds.csv",
@@ -147,13 +147,13 @@ rule transfer_collocation:
     message:
         "transfer: solve by collocation"
     shell:
-        "python -m smallsat.transfer.solve collocation --config {params.config:q}"
+        "python -m smallsat.studies.transfer.solve collocation --config {params.config:q}"
         f" --results {TRANSFER} > {{log}} 2>&1"
 
 
 rule transfer_observations:
     input:
-        sources("smallsat.transfer.observe"),
+        sources("smallsat.studies.transfer.observe"),
         cases=[
             CASE_FILES[name]
             for name in ("indirect", "as-published", "converged", "multistart", "continuous")
@@ -173,7 +173,7 @@ rule transfer_observations:
     message:
         "transfer: observe the published values"
     shell:
-        "python -m smallsat.transfer.observe values --published {params.published}"
+        "python -m smallsat.studies.transfer.observe values --published {params.published}"
         f" --results {TRANSFER} > {{log}} 2>&1"
 
 
@@ -218,7 +218,7 @@ for place, (method, degree, intervals) in enumerate(TRANSFER_FIGURES):
         input:
             notebook=project("notebooks/transfer/case.ipynb"),
             sources=NOTEBOOK_SOURCES
-            + sources("smallsat.transfer.case_plot", "smallsat.drawing.figure"),
+            + sources("smallsat.studies.transfer.figures.cases", "smallsat.drawing.figure"),
             trajectories=TRAJECTORIES[method, intervals],
         output:
             figure_files(*stems),
@@ -247,7 +247,7 @@ for place, (method, degree, intervals) in enumerate(TRANSFER_FIGURES):
 rule transfer_schematics:
     input:
         notebook=project("notebooks/transfer/schematics.ipynb"),
-        sources=NOTEBOOK_SOURCES + sources("smallsat.transfer.schematic", "smallsat.drawing.figure"),
+        sources=NOTEBOOK_SOURCES + sources("smallsat.studies.transfer.figures.schematics", "smallsat.drawing.figure"),
         trajectories=f"{TRANSFER}/indirect.parquet",
     output:
         figure_files(*[f"figures/transfer/fig-{n:02d}" for n in range(1, 5)]),
@@ -275,8 +275,8 @@ rule transfer_comparisons:
         notebook=project("notebooks/transfer/comparisons.ipynb"),
         sources=NOTEBOOK_SOURCES
         + sources(
-            "smallsat.transfer.comparison_plot",
-            "smallsat.transfer.tables",
+            "smallsat.studies.transfer.figures.comparisons",
+            "smallsat.studies.transfer.results",
             "smallsat.drawing.figure",
         ),
         results=[path for path in STUDY_RESULTS["transfer"] if "observations" not in path]
@@ -307,8 +307,8 @@ rule transfer_beyond:
         notebook=project("notebooks/transfer/beyond.ipynb"),
         sources=NOTEBOOK_SOURCES
         + sources(
-            "smallsat.transfer.comparison_plot",
-            "smallsat.transfer.tables",
+            "smallsat.studies.transfer.figures.comparisons",
+            "smallsat.studies.transfer.results",
             "smallsat.drawing.figure",
         ),
         results=[path for path in STUDY_RESULTS["transfer"] if "observations" not in path],

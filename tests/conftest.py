@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from smallsat.isolation import isolate
+from smallsat.workflow.isolation import isolate
 
 ROOT = Path(__file__).parents[1]
 # Before matplotlib or Jupyter is imported: the settings of whoever runs the tests stay out.

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from smallsat.config import default_config, overlaid_config, schema_of
 from smallsat.errors import InputError
-from smallsat.run import checked, read_run
+from smallsat.workflow.run import checked, read_run
 
 ROOT = Path(__file__).parents[1]
 DEFAULT, SCHEMA = default_config(ROOT), schema_of(ROOT)

@@ -5,10 +5,8 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from smallsat.dynamics.attitude_propagator import propagate, transition
-from smallsat.dynamics.environment import ATMOSPHERE, density, gravity_gradient, panel_drag
-from smallsat.dynamics.kepler_orbits import Elements, Gravity, fly, period, state_of
-from smallsat.dynamics.quaternions import (
+from smallsat.dynamics.attitude.attitude_propagator import propagate, transition
+from smallsat.dynamics.attitude.quaternions import (
     error_quaternion,
     product,
     quaternion_rate,
@@ -16,6 +14,8 @@ from smallsat.dynamics.quaternions import (
     roll_pitch_yaw,
     turn_angle,
 )
+from smallsat.dynamics.environment.torques import ATMOSPHERE, density, gravity_gradient, panel_drag
+from smallsat.dynamics.orbits.kepler_orbits import Elements, Gravity, fly, period, state_of
 
 EARTH = Gravity(3.986004418e14, 6378e3, 1.08262668e-3)
 

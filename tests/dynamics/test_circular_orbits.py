@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from smallsat.dynamics.circular_orbits import (
+from smallsat.dynamics.orbits.circular_orbits import (
     CircularOrbit,
     hill_frame,
     orbit_frame,

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.linalg import expm
 
-from smallsat.dynamics.clohessy_wiltshire import (
+from smallsat.dynamics.orbits.clohessy_wiltshire import (
     costate_transition,
     held_input_rows,
     rate_matrix,

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from smallsat.dynamics.mrp import dcm_to_mrp, mrp_rate, mrp_to_dcm, shadow
+from smallsat.dynamics.attitude.mrp import dcm_to_mrp, mrp_rate, mrp_to_dcm, shadow
 
 component = st.floats(-0.577, 0.577)
 mrp = st.tuples(component, component, component).map(np.array)

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from smallsat.dynamics.rigid_body import (
+from smallsat.dynamics.attitude.rigid_body import (
     angular_acceleration,
     angular_momentum,
     kinetic_energy,

@@ -7,9 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.special import assoc_legendre_p
 
-from smallsat.dynamics import egm96
-from smallsat.dynamics.kepler_orbits import acceleration as oblate
-from smallsat.dynamics.spherical_harmonics import acceleration, normalisation, terms
+from smallsat.dynamics.environment import egm96
+from smallsat.dynamics.environment.spherical_harmonics import acceleration, normalisation, terms
+from smallsat.dynamics.orbits.kepler_orbits import acceleration as oblate
 
 FULL = terms(egm96.COEFFICIENTS, 8, 8)
 POINTS = st.tuples(

@@ -48,7 +48,10 @@ def test_the_case_picks_the_entry_where_there_is_no_component():
 def test_a_constant_of_the_code_can_be_fed():
     binding = {"constant": "math:pi"}
     assert bound_value(row(), binding, CONFIG) == pytest.approx(3.14159265)
-    assert binding_name({"constant": "smallsat.mars.modes:LIMIT"}) == "mars.modes.LIMIT"
+    assert (
+        binding_name({"constant": "smallsat.studies.mars.model.modes:LIMIT"})
+        == "mars.model.modes.LIMIT"
+    )
     assert binding_name({"config": "mars.step_s"}) == "mars.step_s"
 
 

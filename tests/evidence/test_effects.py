@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from smallsat.evidence.effects import Bootstrap, Effect, above, effect, together, within
+from smallsat.evidence.effects import above, together, within
+from smallsat.statistics.bootstrap import Bootstrap, Effect, effect
 
 BOOTSTRAP = Bootstrap(resamples=1000, confidence=0.95, seed=7)
 

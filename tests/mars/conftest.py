@@ -2,9 +2,9 @@ from pathlib import Path
 
 import pytest
 
-from smallsat.mars.parameters import parameters
-from smallsat.mars.simulation import document_runs
 from smallsat.strict_yaml import read_yaml
+from smallsat.studies.mars.methods.simulation import document_runs
+from smallsat.studies.mars.parameters import parameters
 
 CONFIG = Path(__file__).parents[2] / "config/default.yaml"
 

@@ -6,9 +6,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from smallsat.mars import claims, errata
-from smallsat.mars.independent_check import check_runs
-from smallsat.mars.simulation import as_table, day_run
+from smallsat.studies.mars.evidence import claims, errata
+from smallsat.studies.mars.methods.independent_check import check_runs
+from smallsat.studies.mars.methods.simulation import as_table, day_run
 
 
 @pytest.fixture(scope="module")

@@ -4,11 +4,11 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from smallsat.mars.independent_check import attitude_angle
-from smallsat.mars.modes import NADIR
-from smallsat.mars.response_plot import response_data
-from smallsat.mars.scene import scene_data, scene_in
-from smallsat.mars.simulation import as_table
+from smallsat.studies.mars.figures.responses import response_data
+from smallsat.studies.mars.figures.scenes import scene_data, scene_in
+from smallsat.studies.mars.methods.independent_check import attitude_angle
+from smallsat.studies.mars.methods.simulation import as_table
+from smallsat.studies.mars.model.modes import NADIR
 
 
 @pytest.fixture(scope="module")

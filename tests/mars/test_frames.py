@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from smallsat.dynamics.circular_orbits import position, velocity
-from smallsat.mars.frames import (
+from smallsat.dynamics.orbits.circular_orbits import position, velocity
+from smallsat.studies.mars.model.frames import (
     SUN_FRAME,
     gmo_frame,
     gmo_frame_rate,

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from smallsat.mars.gains import damping_ratios, decay_times, gains
+from smallsat.studies.mars.model.gains import damping_ratios, decay_times, gains
 
 moment = st.floats(0.1, 100.0)
 

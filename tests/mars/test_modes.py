@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from smallsat.dynamics.circular_orbits import CircularOrbit
-from smallsat.mars.modes import GMO, NADIR, SUN, pointing_mode, shares, timeline
+from smallsat.dynamics.orbits.circular_orbits import CircularOrbit
+from smallsat.studies.mars.model.modes import GMO, NADIR, SUN, pointing_mode, shares, timeline
 
 LIMIT = np.radians(35.0)
 

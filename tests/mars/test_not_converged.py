@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from smallsat.drawing.style import apply_style
-from smallsat.mars import claims, errata
-from smallsat.mars.__main__ import _check, _simulate
-from smallsat.mars.response_plot import response_data, response_figure
 from smallsat.results import read_table
+from smallsat.studies.mars.evidence import claims, errata
+from smallsat.studies.mars.figures.responses import response_data, response_figure
+from smallsat.studies.mars.steps import _check, _simulate
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,7 @@ import pytest
 
 from smallsat.errors import InputError
 from smallsat.evidence.ledger import read_ledger
-from smallsat.mars.observations import observations
+from smallsat.studies.mars.evidence.observations import observations
 
 LEDGER = Path(__file__).parents[2] / "data/published/values.csv"
 

@@ -5,7 +5,7 @@ import copy
 import pytest
 
 from smallsat.errors import InputError
-from smallsat.mars.parameters import MARS_MU, check
+from smallsat.studies.mars.parameters import MARS_MU, check
 
 
 def changed(section, keys, value):

@@ -4,12 +4,18 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from smallsat.dynamics.mrp import mrp_rate
-from smallsat.dynamics.rigid_body import angular_acceleration
-from smallsat.mars.frames import SUN_FRAME, SUN_FRAME_RATE
-from smallsat.mars.independent_check import attitude_angle, check_runs
-from smallsat.mars.modes import SUN
-from smallsat.mars.simulation import AUTOMATIC, COLUMNS, as_table, run, tracking_error
+from smallsat.dynamics.attitude.mrp import mrp_rate
+from smallsat.dynamics.attitude.rigid_body import angular_acceleration
+from smallsat.studies.mars.methods.independent_check import attitude_angle, check_runs
+from smallsat.studies.mars.methods.simulation import (
+    AUTOMATIC,
+    COLUMNS,
+    as_table,
+    run,
+    tracking_error,
+)
+from smallsat.studies.mars.model.frames import SUN_FRAME, SUN_FRAME_RATE
+from smallsat.studies.mars.model.modes import SUN
 
 SIGMA = ["sigma_1", "sigma_2", "sigma_3"]
 OMEGA = ["omega_1", "omega_2", "omega_3"]

@@ -11,9 +11,9 @@ from smallsat.optimal_control.gauss_pseudospectral import (
     differentiation_matrix,
     legendre_gauss,
 )
-from smallsat.optimal_control.held_control import HeldControl
 from smallsat.optimal_control.nonlinear_program import IpoptSolver
 from smallsat.optimal_control.switching_times import arcs_of, refine
+from smallsat.optimal_control.zero_order_hold import HeldControl
 
 FREE = np.full(2, np.inf)
 

@@ -4,7 +4,7 @@ import copy
 
 import pytest
 
-from smallsat.slew import errata
+from smallsat.studies.slew.evidence import errata
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ from itertools import product
 import pandas as pd
 import pytest
 
-from smallsat.transfer.printed import printed_cases
+from smallsat.studies.transfer.evidence.printed import printed_cases
 
 # Best known final times of direct multiple shooting with free polynomials, to six decimals: the
 # figures an independent computation found for the same problem. Ours must match or beat them.

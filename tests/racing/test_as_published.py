@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from smallsat.racing.as_published import Target, guess, least_time, solve_segment
-from smallsat.racing.errata import ranks_at
-from smallsat.racing.flight import fly_segment
-from smallsat.racing.shooting import (
+from smallsat.studies.racing.evidence.errata import ranks_at
+from smallsat.studies.racing.methods.as_published import Target, guess, least_time, solve_segment
+from smallsat.studies.racing.methods.flight import fly_segment
+from smallsat.studies.racing.model.shooting import (
     AXIS_BY_AXIS,
     DIRECTED,
     NORM_OF_AXES,
@@ -69,7 +69,7 @@ def test_quadrature_is_the_flight(given, transposed):
     state, target, craft = _first(given)
     start, _ = guess(state, target, craft.thrust, given.as_published)
     costate = start[:6] * np.repeat([0.02, 1.0], 3)
-    from smallsat.dynamics.clohessy_wiltshire import rate_matrix
+    from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
 
     x, p = end_of_segment(
         state, costate, 100.0, rate_matrix(given.mean_motion),

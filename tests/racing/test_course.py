@@ -8,9 +8,9 @@ import pandas as pd
 import pytest
 
 from smallsat.errors import InputError
-from smallsat.racing.course import check_course, course_of, course_table, generate
-from smallsat.racing.matlab_random import MatlabStream
-from smallsat.racing.recovery import search_days, start_positions
+from smallsat.studies.racing.methods.recovery import search_days, start_positions
+from smallsat.studies.racing.model.course import check_course, course_of, course_table, generate
+from smallsat.studies.racing.model.matlab_random import MatlabStream
 
 PUBLISHED = Path(__file__).parents[2] / "data/published/racing/course-scenario-1.csv"
 # First outputs of MATLAB's `rng(0); rand` and `rng(0); randn`, as in its documentation.

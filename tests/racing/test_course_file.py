@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from smallsat.errors import InputError
-from smallsat.racing.course_file import COLUMNS, MOST_RINGS, read_course_file
+from smallsat.studies.racing.model.course_file import COLUMNS, MOST_RINGS, read_course_file
 
 GOOD = """ring,x_m,y_m,z_m,nx,ny,nz,semi_major_m,semi_minor_m
 start,0,0,0,,,,,

@@ -7,9 +7,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from smallsat.racing import claims, errata
-from smallsat.racing.printed import PRINTED
 from smallsat.results import write_table
+from smallsat.studies.racing.evidence import claims, errata
+from smallsat.studies.racing.evidence.printed import PRINTED
 
 RESULTS = Path("nowhere")
 

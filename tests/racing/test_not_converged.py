@@ -9,16 +9,18 @@ import pytest
 from matplotlib import pyplot as plt
 from scipy.integrate import solve_ivp
 
-from smallsat.dynamics.clohessy_wiltshire import rate_matrix
-from smallsat.racing import attempts, checks, claims, plots
-from smallsat.racing.course import Course
-from smallsat.racing.course_program import CourseProgram
-from smallsat.racing.cubesat import CubeSat
-from smallsat.racing.observations import observations
-from smallsat.racing.parameters import Race
-from smallsat.racing.races import WHOLE, fly_optima, whole_leg
-from smallsat.racing.scores import missed_table, score_table
+from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
 from smallsat.results import write_table
+from smallsat.studies.racing.evidence import claims
+from smallsat.studies.racing.evidence.observations import observations
+from smallsat.studies.racing.evidence.scores import missed_table, score_table
+from smallsat.studies.racing.figures import plots
+from smallsat.studies.racing.methods import attempts, checks
+from smallsat.studies.racing.methods.course_program import CourseProgram
+from smallsat.studies.racing.methods.races import WHOLE, fly_optima, whole_leg
+from smallsat.studies.racing.model.course import Course
+from smallsat.studies.racing.model.cubesat import CubeSat
+from smallsat.studies.racing.parameters import Race
 
 RINGS = 2
 # The tide at the first ring is 0.66 mm/s^2; below that nothing stands still there.

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from smallsat.dynamics.clohessy_wiltshire import rate_matrix
-from smallsat.racing import indirect
-from smallsat.racing.checks import primer_check
-from smallsat.racing.course_program import CourseProgram, Leg
-from smallsat.racing.cubesat import cubesat
-from smallsat.racing.flight import fly_plan, residual
+from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
+from smallsat.studies.racing.methods import indirect
+from smallsat.studies.racing.methods.checks import primer_check
+from smallsat.studies.racing.methods.course_program import CourseProgram, Leg
+from smallsat.studies.racing.methods.flight import fly_plan, residual
+from smallsat.studies.racing.model.cubesat import cubesat
 
 RINGS = 3
 REST = np.zeros(3)

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
-from smallsat.rendezvous.environment import environment, target_state
-from smallsat.rendezvous.guidance import Law
+from smallsat.studies.rendezvous.guidance.law import Law
+from smallsat.studies.rendezvous.model.environment import environment, target_state
 
 # Made-up tables, which several test files use.
 sys.path.insert(0, str(Path(__file__).parent))

@@ -3,8 +3,8 @@
 import numpy as np
 import pandas as pd
 
-from smallsat.rendezvous.study_cases import PHASES, sweep_case
-from smallsat.rendezvous.study_tables import SCHEMA, column, empty_rows
+from smallsat.studies.rendezvous.monte_carlo.cases import PHASES, sweep_case
+from smallsat.studies.rendezvous.monte_carlo.tables import SCHEMA, column, empty_rows
 
 
 def states(count: int, seed: int = 1) -> pd.DataFrame:

@@ -6,7 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import chi2
 
-from smallsat.rendezvous.actuation_noise import (
+from smallsat.statistics.random_streams import stream
+from smallsat.studies.rendezvous.model.actuation_noise import (
     CHOSEN,
     PERCENT,
     READINGS,
@@ -23,7 +24,6 @@ from smallsat.rendezvous.actuation_noise import (
     steady_state,
     step,
 )
-from smallsat.rendezvous.random_streams import stream
 
 TABLE = Noise(tau=3600.0, omega_n=2.6e-4, xi=1.0, eta_w=3 / np.sqrt(600), eta_v=1.1267e-8)
 readings = st.sampled_from(sorted(READINGS))

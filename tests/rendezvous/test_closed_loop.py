@@ -3,12 +3,15 @@
 import numpy as np
 import pytest
 
-from smallsat.dynamics.clohessy_wiltshire import rate_matrix
-from smallsat.rendezvous import back_ends, constraint_check, guidance, reference_loop
-from smallsat.rendezvous.closed_loop import manoeuvres, next_control
-from smallsat.rendezvous.phase_programs import BOUNDS, PLANES, program_room
-from smallsat.rendezvous.prediction import transition
-from smallsat.rendezvous.stage_wise import workspace
+from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
+from smallsat.optimal_control.riccati_interior_point import workspace
+from smallsat.studies.rendezvous.guidance import law as guidance
+from smallsat.studies.rendezvous.guidance.phase_programs import BOUNDS, PLANES, program_room
+from smallsat.studies.rendezvous.methods import constraint_check
+from smallsat.studies.rendezvous.methods import qp_solvers as back_ends
+from smallsat.studies.rendezvous.model.prediction import transition
+from smallsat.studies.rendezvous.simulation import reference_loop
+from smallsat.studies.rendezvous.simulation.closed_loop import manoeuvres, next_control
 
 CASES = ["v-bar", "r-bar", "rotating"]
 

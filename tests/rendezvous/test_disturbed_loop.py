@@ -6,13 +6,13 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from smallsat.rendezvous.closed_loop import manoeuvres
-from smallsat.rendezvous.disturbances import disturbances
-from smallsat.rendezvous.disturbed_loop import disturbed_manoeuvres
-from smallsat.rendezvous.random_streams import stream
-from smallsat.rendezvous.studies import states_table
-from smallsat.rendezvous.study_cases import base, cases, in_phase
-from smallsat.rendezvous.study_runs import fly_cases
+from smallsat.statistics.random_streams import stream
+from smallsat.studies.rendezvous.monte_carlo.cases import base, cases, in_phase
+from smallsat.studies.rendezvous.monte_carlo.runs import fly_cases
+from smallsat.studies.rendezvous.monte_carlo.studies import states_table
+from smallsat.studies.rendezvous.simulation.closed_loop import manoeuvres
+from smallsat.studies.rendezvous.simulation.disturbances import disturbances
+from smallsat.studies.rendezvous.simulation.disturbed_loop import disturbed_manoeuvres
 
 
 @pytest.fixture(scope="module")

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from smallsat.dynamics import egm96
-from smallsat.dynamics.environment import ATMOSPHERE, density
+from smallsat.dynamics.environment import egm96
+from smallsat.dynamics.environment.torques import ATMOSPHERE, density
 
 
 def test_target_starts_on_the_circular_orbit(target, mean_motion):

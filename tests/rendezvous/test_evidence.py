@@ -11,10 +11,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from smallsat.rendezvous import claims, errata
-from smallsat.rendezvous.flights import CHANGE, STATE
-from smallsat.rendezvous.parameters import law
 from smallsat.strict_yaml import read_yaml
+from smallsat.studies.rendezvous.evidence import claims, errata
+from smallsat.studies.rendezvous.parameters import law
+from smallsat.studies.rendezvous.simulation.flights import CHANGE, STATE
 
 CONFIG = Path(__file__).parents[2] / "config/default.yaml"
 

@@ -5,8 +5,13 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from smallsat.rendezvous.geometry import cone_faces, in_cone, keep_out_normals, rotated
-from smallsat.rendezvous.guidance import CURRENT, NATURAL, SHORTEST
+from smallsat.studies.rendezvous.guidance.law import CURRENT, NATURAL, SHORTEST
+from smallsat.studies.rendezvous.model.geometry import (
+    cone_faces,
+    in_cone,
+    keep_out_normals,
+    rotated,
+)
 
 angles = st.floats(0.0, 2 * np.pi)
 numbers = st.floats(-1.0, 1.0)

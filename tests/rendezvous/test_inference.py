@@ -7,8 +7,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from smallsat.rendezvous.delta_v import READINGS, in_turned_axes, summed
-from smallsat.rendezvous.inference import (
+from smallsat.strict_yaml import read_yaml
+from smallsat.studies.rendezvous.inference.search import (
     fly_sets,
     misfits,
     parameter_names,
@@ -17,8 +17,8 @@ from smallsat.rendezvous.inference import (
     search,
     with_values,
 )
-from smallsat.rendezvous.inferred import acceptable, identified, profiles
-from smallsat.strict_yaml import read_yaml
+from smallsat.studies.rendezvous.inference.summary import acceptable, identified, profiles
+from smallsat.studies.rendezvous.simulation.delta_v import READINGS, in_turned_axes, summed
 
 CONFIG = Path(__file__).parents[2] / "config/default.yaml"
 

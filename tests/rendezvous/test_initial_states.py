@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 from scipy.linalg import expm
 from scipy.stats import kstest
 
-from smallsat.rendezvous.initial_states import (
+from smallsat.statistics.random_streams import stream
+from smallsat.studies.rendezvous.monte_carlo.initial_states import (
     IN_PLANE,
     ISOTROPIC,
     Distribution,
@@ -17,7 +18,6 @@ from smallsat.rendezvous.initial_states import (
     quadrant,
     stable_velocity,
 )
-from smallsat.rendezvous.random_streams import stream
 
 THESIS = Distribution(150.0, 2500.0, 0.5, IN_PLANE)
 LIFTED = THESIS._replace(direction=ISOTROPIC)

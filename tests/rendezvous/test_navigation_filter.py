@@ -8,7 +8,8 @@ import pytest
 from scipy.linalg import expm, solve_discrete_are
 from scipy.stats import chi2
 
-from smallsat.rendezvous.actuation_noise import (
+from smallsat.statistics.random_streams import stream
+from smallsat.studies.rendezvous.model.actuation_noise import (
     CHOSEN,
     Noise,
     interval,
@@ -16,9 +17,8 @@ from smallsat.rendezvous.actuation_noise import (
     stationary_factor,
     step,
 )
-from smallsat.rendezvous.navigation_filter import FilterModel, begin, predict, update
-from smallsat.rendezvous.random_streams import stream
-from smallsat.rendezvous.truth import advance, pair_from_relative, relative_state
+from smallsat.studies.rendezvous.model.navigation_filter import FilterModel, begin, predict, update
+from smallsat.studies.rendezvous.model.truth import advance, pair_from_relative, relative_state
 
 MEAN_MOTION = 0.00114
 THRUST_NOISE = Noise(tau=3600.0, omega_n=2.6e-4, xi=1.0, eta_w=3 / np.sqrt(600), eta_v=1.1267e-8)

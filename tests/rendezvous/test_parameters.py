@@ -7,8 +7,8 @@ import pytest
 
 from smallsat.config import validate
 from smallsat.errors import InputError
-from smallsat.rendezvous.parameters import CASES, check, law, start_state
 from smallsat.strict_yaml import read_yaml
+from smallsat.studies.rendezvous.parameters import CASES, check, law, start_state
 
 ROOT = Path(__file__).parents[2]
 

@@ -7,9 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from smallsat.dynamics.clohessy_wiltshire import rate_matrix
-from smallsat.rendezvous.guidance import settings
-from smallsat.rendezvous.prediction import terminal_weight, transition
+from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
+from smallsat.studies.rendezvous.guidance.law import settings
+from smallsat.studies.rendezvous.model.prediction import terminal_weight, transition
 
 N = 0.00114
 

@@ -5,10 +5,10 @@ import pytest
 from scipy.linalg import expm
 from scipy.optimize import least_squares
 
-from smallsat.dynamics import egm96
-from smallsat.dynamics.kepler_orbits import Elements, acceleration, state_of
-from smallsat.rendezvous.prediction_j2 import J2, oblateness, schweighart_sedwick
-from smallsat.rendezvous.truth import advance, pair_from_relative, relative_state
+from smallsat.dynamics.environment import egm96
+from smallsat.dynamics.orbits.kepler_orbits import Elements, acceleration, state_of
+from smallsat.studies.rendezvous.model.prediction_j2 import J2, oblateness, schweighart_sedwick
+from smallsat.studies.rendezvous.model.truth import advance, pair_from_relative, relative_state
 
 N = 0.00114
 RADIUS = (egm96.MU / N**2) ** (1 / 3)

@@ -7,8 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from smallsat.errors import InputError
-from smallsat.rendezvous.shards import merge, part
 from smallsat.results import write_table
+from smallsat.studies.rendezvous.monte_carlo.shards import merge, part
 
 COUNT = 17
 

@@ -5,12 +5,19 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from smallsat.rendezvous import back_ends, guidance, solver_comparison
-from smallsat.rendezvous.closed_loop import ITERATION_LIMIT, SOFTENED, TOLERANCE
-from smallsat.rendezvous.phase_programs import BOUNDS, PLANES, program_room, write_program
-from smallsat.rendezvous.solver_comparison import BACK_ENDS, NOT_FOR_LP, samples
-from smallsat.rendezvous.stage_wise import ITERATION_LIMIT as OUT_OF_STEPS
-from smallsat.rendezvous.stage_wise import SOLVED, Program, solve, workspace
+from smallsat.optimal_control.riccati_interior_point import ITERATION_LIMIT as OUT_OF_STEPS
+from smallsat.optimal_control.riccati_interior_point import SOLVED, Program, solve, workspace
+from smallsat.studies.rendezvous.guidance import law as guidance
+from smallsat.studies.rendezvous.guidance.phase_programs import (
+    BOUNDS,
+    PLANES,
+    program_room,
+    write_program,
+)
+from smallsat.studies.rendezvous.methods import qp_solvers as back_ends
+from smallsat.studies.rendezvous.methods import solver_comparison
+from smallsat.studies.rendezvous.methods.solver_comparison import BACK_ENDS, NOT_FOR_LP, samples
+from smallsat.studies.rendezvous.simulation.closed_loop import ITERATION_LIMIT, SOFTENED, TOLERANCE
 
 
 @pytest.fixture(scope="module")

@@ -7,11 +7,14 @@ import pytest
 import synthetic
 
 from smallsat.evidence.claims import judge_claims
-from smallsat.rendezvous.sensitivity_claims import proportion_interval
-from smallsat.rendezvous.study_cases import AS_DOCUMENTED, FILTERED, UNDISTURBED
-from smallsat.rendezvous.study_observations import predictive_count, predictive_maximum
 from smallsat.results import write_table
 from smallsat.strict_yaml import read_yaml
+from smallsat.studies.rendezvous.evidence.monte_carlo_observations import (
+    predictive_count,
+    predictive_maximum,
+)
+from smallsat.studies.rendezvous.evidence.sensitivity_claims import proportion_interval
+from smallsat.studies.rendezvous.monte_carlo.cases import AS_DOCUMENTED, FILTERED, UNDISTURBED
 
 COUNT = 120
 RENDEZVOUS = ([15, 30, 45], [20.0, 30.0, 40.0, 50.0, 60.0])

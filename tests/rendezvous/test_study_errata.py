@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 import synthetic
 
-from smallsat.rendezvous import study_errata
-from smallsat.rendezvous.study_cases import LP, NO_SET_POINT, sweep_case
 from smallsat.results import write_table
+from smallsat.studies.rendezvous.evidence import monte_carlo_errata as study_errata
+from smallsat.studies.rendezvous.monte_carlo.cases import LP, NO_SET_POINT, sweep_case
 
 NOWHERE = Path("nowhere")
 COUNT = 40

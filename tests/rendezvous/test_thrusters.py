@@ -5,8 +5,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from smallsat.rendezvous.impulsive_assumption import impulsive_error
-from smallsat.rendezvous.thrusters import pulse_on_times, realised, thrust_acceleration
+from smallsat.studies.rendezvous.methods.impulsive_assumption import impulsive_error
+from smallsat.studies.rendezvous.model.thrusters import (
+    pulse_on_times,
+    realised,
+    thrust_acceleration,
+)
 
 MASS, FORCE = 14.0, 0.5
 START = np.array([140.0, -1580.0, 60.0, -0.90, -0.32, 0.0])

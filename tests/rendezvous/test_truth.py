@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
-from smallsat.dynamics import egm96
-from smallsat.rendezvous.truth import (
+from smallsat.dynamics.environment import egm96
+from smallsat.studies.rendezvous.model.truth import (
     advance,
     drag,
     pair_from_relative,

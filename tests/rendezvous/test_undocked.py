@@ -6,14 +6,15 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from smallsat.rendezvous import plots, schematics
-from smallsat.rendezvous.flights import fly_cases
-from smallsat.rendezvous.guidance import PHASES
-from smallsat.rendezvous.observations import case_cells, observations, undocked
-from smallsat.rendezvous.parameters import CASES, law, start_state
-from smallsat.rendezvous.printed import TOTAL
-from smallsat.rendezvous.solver_comparison import samples
 from smallsat.results import read_table
+from smallsat.studies.rendezvous.evidence.observations import case_cells, observations, undocked
+from smallsat.studies.rendezvous.evidence.printed import TOTAL
+from smallsat.studies.rendezvous.figures import cases as plots
+from smallsat.studies.rendezvous.figures import schematics
+from smallsat.studies.rendezvous.guidance.law import PHASES
+from smallsat.studies.rendezvous.methods.solver_comparison import samples
+from smallsat.studies.rendezvous.parameters import CASES, law, start_state
+from smallsat.studies.rendezvous.simulation.flights import fly_cases
 
 
 @pytest.fixture(scope="module")

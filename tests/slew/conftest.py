@@ -2,8 +2,8 @@ from pathlib import Path
 
 import pytest
 
-from smallsat.slew.parameters import parameters
 from smallsat.strict_yaml import read_yaml
+from smallsat.studies.slew.parameters import parameters
 
 CONFIG = Path(__file__).parents[2] / "config/default.yaml"
 

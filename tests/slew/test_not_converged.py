@@ -8,14 +8,16 @@ import pytest
 
 from smallsat.drawing.style import apply_style
 from smallsat.optimal_control.gauss_pseudospectral import Mesh
-from smallsat.slew import claims, minimum_time, plots
-from smallsat.slew.environment_study import crossover_km
-from smallsat.slew.flown import _position
-from smallsat.slew.guidance import Model, kepler_steps
-from smallsat.slew.observations import chosen_plan, comparable_time, short_of
-from smallsat.slew.parameters import parameters
-from smallsat.slew.plans import HELD_COLUMNS, guidance_model, joined
-from smallsat.slew.turns import turn_plans
+from smallsat.studies.slew.evidence import claims
+from smallsat.studies.slew.evidence.observations import chosen_plan, comparable_time, short_of
+from smallsat.studies.slew.figures import motions as plots
+from smallsat.studies.slew.methods import minimum_time
+from smallsat.studies.slew.methods.environment_study import crossover_km
+from smallsat.studies.slew.methods.flown import _position
+from smallsat.studies.slew.methods.guidance_problem import Model, kepler_steps
+from smallsat.studies.slew.methods.plans import HELD_COLUMNS, guidance_model, joined
+from smallsat.studies.slew.methods.turns import turn_plans
+from smallsat.studies.slew.parameters import parameters
 
 
 @pytest.fixture(scope="module")

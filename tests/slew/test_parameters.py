@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from smallsat.errors import InputError
-from smallsat.slew.bound import bound_time, needed, plan_titles
-from smallsat.slew.minimum_time import DOCUMENT_GUESS, eigenaxis_time, guess
-from smallsat.slew.parameters import check, half_angle_deg, parameters, quarter_angle_deg
+from smallsat.studies.slew.methods.bound import bound_time, needed, plan_titles
+from smallsat.studies.slew.methods.minimum_time import DOCUMENT_GUESS, eigenaxis_time, guess
+from smallsat.studies.slew.parameters import check, half_angle_deg, parameters, quarter_angle_deg
 
 
 def changed(section, keys, value):

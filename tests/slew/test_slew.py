@@ -7,14 +7,14 @@ import pytest
 
 from smallsat.errors import InputError
 from smallsat.optimal_control.gauss_pseudospectral import Mesh
-from smallsat.slew import minimum_time
-from smallsat.slew.bound import bound_time, largest_disturbance, reach
-from smallsat.slew.claims import bang_coast_bang
-from smallsat.slew.flights import controller
-from smallsat.slew.guidance import Model
-from smallsat.slew.parameters import check, panels
-from smallsat.slew.plans import best_plan, guidance_model, hold, least_infeasible
-from smallsat.slew.simulation import angles_deg, plant, run, usage_pct
+from smallsat.studies.slew.evidence.claims import bang_coast_bang
+from smallsat.studies.slew.methods import minimum_time
+from smallsat.studies.slew.methods.bound import bound_time, largest_disturbance, reach
+from smallsat.studies.slew.methods.flights import controller
+from smallsat.studies.slew.methods.guidance_problem import Model
+from smallsat.studies.slew.methods.plans import best_plan, guidance_model, hold, least_infeasible
+from smallsat.studies.slew.model.simulation import angles_deg, plant, run, usage_pct
+from smallsat.studies.slew.parameters import check, panels
 
 # Bilimoria and Wie's scaled least times, as the document and the literature print them.
 LITERATURE = {"half": 3.243, "quarter": 2.4211}

@@ -7,14 +7,19 @@ import pytest
 
 from smallsat.optimal_control.collocation import Collocation
 from smallsat.optimal_control.nonlinear_program import IpoptSolver
-from smallsat.transfer import beyond
-from smallsat.transfer.continuation import minimum_time
-from smallsat.transfer.direct import Case, control_history, fitted_guess, shooting_program
-from smallsat.transfer.extremals import Found, find_extremals
-from smallsat.transfer.indirect import condition_error, fly_extremal
-from smallsat.transfer.problem import TransferProblem
-from smallsat.transfer.trajectory import boundary_error, fly
-from smallsat.transfer.units import canonical, units_of
+from smallsat.studies.transfer.methods import collocation as beyond
+from smallsat.studies.transfer.methods.continuation import minimum_time
+from smallsat.studies.transfer.methods.direct import (
+    Case,
+    control_history,
+    fitted_guess,
+    shooting_program,
+)
+from smallsat.studies.transfer.methods.extremals import Found, find_extremals
+from smallsat.studies.transfer.methods.indirect import condition_error, fly_extremal
+from smallsat.studies.transfer.model.problem import TransferProblem
+from smallsat.studies.transfer.model.trajectory import boundary_error, fly
+from smallsat.studies.transfer.model.units import canonical, units_of
 
 
 @pytest.fixture(scope="module")

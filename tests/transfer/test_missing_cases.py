@@ -11,12 +11,13 @@ import pytest
 from smallsat.config import read_yaml
 from smallsat.evidence.claims import judge_claims
 from smallsat.evidence.errata import prove_errata
-from smallsat.transfer import experiments, extremals, observe, solve
-from smallsat.transfer.case_plot import control_figure, states_figure
-from smallsat.transfer.continuation import ContinuationError
-from smallsat.transfer.indirect import ConvergenceError
-from smallsat.transfer.problem import TransferProblem
-from smallsat.transfer.trajectory import ControlHistory, boundary_error, fly
+from smallsat.studies.transfer import observe, solve
+from smallsat.studies.transfer.figures.cases import control_figure, states_figure
+from smallsat.studies.transfer.methods import experiments, extremals
+from smallsat.studies.transfer.methods.continuation import ContinuationError
+from smallsat.studies.transfer.methods.indirect import ConvergenceError
+from smallsat.studies.transfer.model.problem import TransferProblem
+from smallsat.studies.transfer.model.trajectory import ControlHistory, boundary_error, fly
 
 # Claims and proofs that rest on nothing but what is printed, or on the equations.
 FROM_PRINT_ALONE = {

@@ -7,10 +7,10 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from smallsat.errors import InputError
-from smallsat.transfer.continuation import minimum_time
-from smallsat.transfer.parameters import check
-from smallsat.transfer.problem import TransferProblem
-from smallsat.transfer.units import canonical
+from smallsat.studies.transfer.methods.continuation import minimum_time
+from smallsat.studies.transfer.model.problem import TransferProblem
+from smallsat.studies.transfer.model.units import canonical
+from smallsat.studies.transfer.parameters import check
 
 
 def changed(config, **changes):

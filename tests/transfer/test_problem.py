@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from smallsat.transfer.problem import TransferProblem
+from smallsat.studies.transfer.model.problem import TransferProblem
 
 COAST = {"mu": 1.0, "thrust": 1e-300, "exhaust_speed": 1.0}
 ORBITS = {"initial_radius": 1.0, "final_radius": 1.5, "initial_mass": 1.0}

@@ -2,7 +2,7 @@
 
 import pytest
 
-from smallsat.transfer.tables import PrintedCase, parse_case
+from smallsat.studies.transfer.results import PrintedCase, parse_case
 
 
 @pytest.mark.parametrize(

@@ -85,7 +85,9 @@ def make_environment(folder: Path) -> None:
     (site,) = (folder / ".venv/lib").glob("python*/site-packages")
     (site / "project.pth").write_text(f"{folder / 'src'}\n{sysconfig.get_path('purelib')}\n")
     script = folder / ".venv/bin/snakemake"
-    script.write_text(f"#!{python}\nfrom smallsat.command_line import snakemake\nsnakemake()\n")
+    script.write_text(
+        f"#!{python}\nfrom smallsat.workflow.command_line import snakemake\nsnakemake()\n"
+    )
     script.chmod(0o755)
     (folder / ".venv/installed").write_text(str(folder))
 
@@ -93,7 +95,9 @@ def make_environment(folder: Path) -> None:
 @pytest.fixture(scope="session")
 def make_project(root: Path, tmp_path_factory) -> Callable[[], Project]:
     """Function that copies what belongs to the project into a fresh folder."""
-    ignored = [line.strip("/\n") for line in (root / ".gitignore").open()]
+    lines = (root / ".gitignore").read_text().split()
+    anywhere = [line.rstrip("/") for line in lines if not line.startswith("/")]
+    at_the_top = {line.strip("/") for line in lines if line.startswith("/")}
 
     def unwanted(folder: str, names: list[str]) -> set[str]:
         place = Path(folder).relative_to(root)
@@ -101,7 +105,8 @@ def make_project(root: Path, tmp_path_factory) -> Callable[[], Project]:
             name
             for name in names
             if name == ".git"
-            or any(fnmatch.fnmatch(name, rule) or str(place / name) == rule for rule in ignored)
+            or str(place / name) in at_the_top
+            or any(fnmatch.fnmatch(name, rule) for rule in anywhere)
         }
 
     def make() -> Project:

@@ -51,7 +51,7 @@ def binding_name(binding: Mapping[str, Any]) -> str:
     if "config" in binding:
         return binding["config"]
     name = binding.get("derived") or binding["constant"]
-    return name.removeprefix("smallsat.").replace(":", ".")
+    return name.removeprefix("smallsat.").removeprefix("studies.").replace(":", ".")
 
 
 def agrees(row: Mapping[str, str], binding: Mapping[str, Any], value: float) -> bool:

@@ -1,0 +1,669 @@
+"""A stage-wise primal-dual interior-point method for the quadratic programs of the guidance law.
+
+The problem, in scaled units in which every control lies in [-1, 1]:
+
+    minimise    sum_i  x_i' H x_i / 2 + h_i' x_i  +  u_i' R u_i / 2 + v' |u_i|
+                + sum over rows  w (g' x_i - b)+          (x_N has its own H)
+    subject to  x_{i+1} = A (x_i + [0; u_i]),   -1 <= u_i <= 1
+
+A row with a finite weight is a penalty; one with a large weight is a constraint that gives way only
+where nothing else is possible. So every problem has a solution, and the rows that gave way can be
+counted. A penalty row has the slack t = b - g'x + s, its excess s and a multiplier y between 0 and
+w, with y t = 0 and (w - y) s = 0; both are eliminated in closed form, and what is left is solved by
+one Riccati recursion over the stages. Since any s gives a t, the iterates are feasible from the
+start; steps are Mehrotra's predictor and corrector (SIAM J. Optim. 2, 1992). In 42 669 programs of
+closed loops under five laws it took 11 iterations on average and never more than 27, infeasible
+programs included.
+
+Why not a library: a full study solves several million programs, and the fastest library for each
+phase takes about six times as long for them
+(`smallsat.studies.rendezvous.methods.solver_comparison` measures it); the only ones that need no
+Python around each call are HPIPM, whose kernels are made for larger matrices, and DAQP, which knows
+no penalty of the first power without further unknowns.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from smallsat.dynamics.compiled import compiled, compiled_arithmetic
+
+SOLVED, ITERATION_LIMIT, NUMERICAL = 0, 1, 2
+STATES, CONTROLS = 6, 3
+BOUNDARY = 0.995  # share of the way to the boundary that a step may go
+START_SLACK = 0.5  # scaled, of a violated row in the first iterate
+
+
+class Program(NamedTuple):
+    """One quadratic program, scaled; N stages, up to P planes and B bounds a stage.
+
+    Attributes
+    ----------
+    transition
+        A, (6, 6).
+    state_hessian, terminal_hessian
+        Diagonal of H, (6,), and H of the last stage, (6, 6).
+    state_gradient
+        h, (N + 1, 6).
+    control_hessian, control_norm
+        Diagonal of R and the weights v of the absolute values, (3,).
+    plane_count, normals, offsets, plane_weights
+        Rows on the position: how many at a stage, (N + 1,); g, (N + 1, P, 3); b and w, (N + 1, P).
+    components, signs, bounds, bound_weights
+        Rows on one component of the state, at every stage: which, (B,); its sign, (B,); b and w,
+        (N + 1, B).
+    """
+
+    transition: np.ndarray
+    state_hessian: np.ndarray
+    terminal_hessian: np.ndarray
+    state_gradient: np.ndarray
+    control_hessian: np.ndarray
+    control_norm: np.ndarray
+    plane_count: np.ndarray
+    normals: np.ndarray
+    offsets: np.ndarray
+    plane_weights: np.ndarray
+    components: np.ndarray
+    signs: np.ndarray
+    bounds: np.ndarray
+    bound_weights: np.ndarray
+
+
+class Workspace(NamedTuple):
+    """Iterates and factors, for up to N stages and R rows.
+
+    Attributes
+    ----------
+    states, controls, state_steps, control_steps
+        The iterate and its step, (N + 1, 6) and (N, 3).
+    boxes
+        For each control, flat: room to the upper and lower bound, multipliers of both, their
+        steps, inverses of the rooms, curvature, (9, 3 N).
+    rows
+        For each row: b, w, g'x, slack t, excess s, multiplier y, steps of t, s and y, curvature D,
+        contribution to the gradient, g'dx, (12, R). Rows on states come first, stage by stage,
+        then those on controls.
+    curvature, state_rhs, control_rhs, control_curvature
+        What the recursion starts from: H plus the rows' part, (N + 1, 6, 6), gradients and the
+        controls' diagonal.
+    gains, inverses
+        Factors of the recursion: feedback, (N, 3, 6), and inverse of the controls' part, (N, 6).
+    feedforward
+        (N, 3).
+    """
+
+    states: np.ndarray
+    controls: np.ndarray
+    state_steps: np.ndarray
+    control_steps: np.ndarray
+    boxes: np.ndarray
+    rows: np.ndarray
+    curvature: np.ndarray
+    state_rhs: np.ndarray
+    control_rhs: np.ndarray
+    control_curvature: np.ndarray
+    gains: np.ndarray
+    inverses: np.ndarray
+    feedforward: np.ndarray
+
+
+@compiled
+def workspace(stages, planes, bounds):
+    """Room for programs of up to that many stages, planes and bounds a stage."""
+    rows = stages * (planes + bounds + CONTROLS)
+    return Workspace(
+        np.zeros((stages + 1, STATES)),
+        np.zeros((stages, CONTROLS)),
+        np.zeros((stages + 1, STATES)),
+        np.zeros((stages, CONTROLS)),
+        np.zeros((9, CONTROLS * stages)),
+        np.zeros((12, rows)),
+        np.zeros((stages + 1, STATES, STATES)),
+        np.zeros((stages + 1, STATES)),
+        np.zeros((stages, CONTROLS)),
+        np.zeros((stages, CONTROLS)),
+        np.zeros((stages, CONTROLS, STATES)),
+        np.zeros((stages, STATES)),
+        np.zeros((stages, CONTROLS)),
+    )
+
+
+@compiled_arithmetic
+def roll_out(transition, start, controls, stages, states):
+    """States of the controls: x_{i+1} = A (x_i + [0; u_i])."""
+    for k in range(STATES):
+        states[0, k] = start[k]
+    for i in range(stages):
+        for j in range(STATES):
+            total = 0.0
+            for k in range(3):
+                total += transition[j, k] * states[i, k]
+                total += transition[j, 3 + k] * (states[i, 3 + k] + controls[i, k])
+            states[i + 1, j] = total
+
+
+@compiled_arithmetic
+def _gather(program, stages, states, controls, values):
+    """Fill g'x of every row; return the number of rows."""
+    r = 0
+    bounds = len(program.components)
+    for i in range(1, stages + 1):
+        for p in range(program.plane_count[i]):
+            values[r] = (
+                program.normals[i, p, 0] * states[i, 0]
+                + program.normals[i, p, 1] * states[i, 1]
+                + program.normals[i, p, 2] * states[i, 2]
+            )
+            r += 1
+        for b in range(bounds):
+            values[r] = program.signs[b] * states[i, program.components[b]]
+            r += 1
+    if program.control_norm[0] > 0.0:
+        for i in range(stages):
+            for k in range(CONTROLS):
+                values[r] = controls[i, k]
+                r += 1
+    return r
+
+
+@compiled_arithmetic
+def _list_rows(program, stages, limits, weights):
+    """Fill b and w of every row."""
+    r = 0
+    bounds = len(program.components)
+    for i in range(1, stages + 1):
+        for p in range(program.plane_count[i]):
+            limits[r] = program.offsets[i, p]
+            weights[r] = program.plane_weights[i, p]
+            r += 1
+        for b in range(bounds):
+            limits[r] = program.bounds[i, b]
+            weights[r] = program.bound_weights[i, b]
+            r += 1
+    if program.control_norm[0] > 0.0:
+        for _ in range(stages):
+            for k in range(CONTROLS):
+                limits[r] = 0.0
+                weights[r] = 2.0 * program.control_norm[k]
+                r += 1
+
+
+@compiled_arithmetic
+def _start_rows(count, rows, mu):
+    """Slack, excess and multiplier of every row to start from, with y t = `mu`.
+
+    A row that is violated starts with the slack `START_SLACK` and the excess that this takes, if
+    its weight allows for a multiplier that fits. Otherwise the row starts on its central path,
+    where t - s = b - g'x and y t = (w - y) s. (The other choice for a violated row, an excess that
+    fits `mu`, needs twice the iterations and more where the program is infeasible.)
+    """
+    limits, weights, values = rows[0], rows[1], rows[2]
+    slacks, excesses, multipliers = rows[3], rows[4], rows[5]
+    for r in range(count):
+        w = weights[r]
+        slack = max(limits[r] - values[r], START_SLACK)
+        if 2.0 * mu < w * slack:
+            multiplier = mu / slack
+            excess = max(mu / (w - multiplier), slack - (limits[r] - values[r]))
+        else:
+            room = w * (limits[r] - values[r])
+            root = np.sqrt(room * room + 4.0 * mu * mu)
+            # of the two roots of one quadratic, the larger first, so that nothing cancels
+            if room > 0.0:
+                slack = (2.0 * mu + room + root) / (2.0 * w)
+                excess = (2.0 * mu + 4.0 * mu * mu / (root + room)) / (2.0 * w)
+            else:
+                excess = (2.0 * mu - room + root) / (2.0 * w)
+                slack = (2.0 * mu + 4.0 * mu * mu / (root - room)) / (2.0 * w)
+            multiplier = mu / slack
+        slacks[r] = slack
+        excesses[r] = excess
+        multipliers[r] = multiplier
+
+
+@compiled_arithmetic
+def _objective_gradient(program, stages, work):
+    """Gradient of the cost at the iterate, without the rows."""
+    states, controls, rhs = work.states, work.controls, work.state_rhs
+    for i in range(1, stages):
+        for k in range(STATES):
+            rhs[i, k] = program.state_hessian[k] * states[i, k] + program.state_gradient[i, k]
+    for j in range(STATES):
+        total = program.state_gradient[stages, j]
+        for k in range(STATES):
+            total += program.terminal_hessian[j, k] * states[stages, k]
+        rhs[stages, j] = total
+    for i in range(stages):
+        for k in range(CONTROLS):
+            work.control_rhs[i, k] = (
+                program.control_hessian[k] * controls[i, k] - program.control_norm[k]
+            )
+
+
+@compiled_arithmetic
+def _scatter(program, stages, coefficients, state_rhs, control_rhs):
+    """Add each row's coefficient times g to the gradients."""
+    r = 0
+    bounds = len(program.components)
+    for i in range(1, stages + 1):
+        for p in range(program.plane_count[i]):
+            c = coefficients[r]
+            state_rhs[i, 0] += c * program.normals[i, p, 0]
+            state_rhs[i, 1] += c * program.normals[i, p, 1]
+            state_rhs[i, 2] += c * program.normals[i, p, 2]
+            r += 1
+        for b in range(bounds):
+            state_rhs[i, program.components[b]] += coefficients[r] * program.signs[b]
+            r += 1
+    if program.control_norm[0] > 0.0:
+        for i in range(stages):
+            for k in range(CONTROLS):
+                control_rhs[i, k] += coefficients[r]
+                r += 1
+
+
+@compiled_arithmetic
+def _assemble_curvature(program, stages, work):
+    """H plus the rows' D g g' for every stage, and the controls' diagonal."""
+    curvatures, curved = work.rows[9], work.boxes[8]
+    bounds = len(program.components)
+    r = 0
+    for i in range(1, stages + 1):
+        h = work.curvature[i]
+        if i < stages:
+            for j in range(STATES):
+                for k in range(STATES):
+                    h[j, k] = 0.0
+                h[j, j] = program.state_hessian[j]
+        else:
+            for j in range(STATES):
+                for k in range(STATES):
+                    h[j, k] = program.terminal_hessian[j, k]
+        for p in range(program.plane_count[i]):
+            d = curvatures[r]
+            for j in range(3):
+                dg = d * program.normals[i, p, j]
+                for k in range(3):
+                    h[j, k] += dg * program.normals[i, p, k]
+            r += 1
+        for b in range(bounds):
+            h[program.components[b], program.components[b]] += curvatures[r]
+            r += 1
+    for i in range(stages):
+        for k in range(CONTROLS):
+            c = CONTROLS * i + k
+            work.control_curvature[i, k] = program.control_hessian[k] + curved[c]
+    if program.control_norm[0] > 0.0:
+        for i in range(stages):
+            for k in range(CONTROLS):
+                work.control_curvature[i, k] += curvatures[r]
+                r += 1
+
+
+@compiled_arithmetic
+def _factor(transition, stages, work):
+    """Riccati recursion: gains and inverses of every stage.
+
+    Written out in scalars, which stay in registers: motion in the orbit's plane (x, y, vx, vy) and
+    out of it (z, vz) do not mix in A, but do in the cost-to-go P. For each stage M = A'PA, then
+    the controls' part of M plus their own curvature is inverted.
+    """
+    axx, axy, axu, axv = transition[0, 0], transition[0, 1], transition[0, 3], transition[0, 4]
+    ayx, ayy, ayu, ayv = transition[1, 0], transition[1, 1], transition[1, 3], transition[1, 4]
+    aux, auy, auu, auv = transition[3, 0], transition[3, 1], transition[3, 3], transition[3, 4]
+    avx, avy, avu, avv = transition[4, 0], transition[4, 1], transition[4, 3], transition[4, 4]
+    azz, azw, awz, aww = transition[2, 2], transition[2, 5], transition[5, 2], transition[5, 5]
+    last = work.curvature[stages]
+    pxx, pxy, pxz, pxu, pxv, pxw = (
+        last[0, 0],
+        last[0, 1],
+        last[0, 2],
+        last[0, 3],
+        last[0, 4],
+        last[0, 5],
+    )
+    pyy, pyz, pyu, pyv, pyw = last[1, 1], last[1, 2], last[1, 3], last[1, 4], last[1, 5]
+    pzz, pzu, pzv, pzw = last[2, 2], last[2, 3], last[2, 4], last[2, 5]
+    puu, puv, puw = last[3, 3], last[3, 4], last[3, 5]
+    pvv, pvw, pww = last[4, 4], last[4, 5], last[5, 5]
+    for i in range(stages - 1, -1, -1):
+        # W = P A, row by row, for the columns that M's upper triangle needs
+        wxx = pxx * axx + pxy * ayx + pxu * aux + pxv * avx
+        wyx = pxy * axx + pyy * ayx + pyu * aux + pyv * avx
+        wux = pxu * axx + pyu * ayx + puu * aux + puv * avx
+        wvx = pxv * axx + pyv * ayx + puv * aux + pvv * avx
+        wxy = pxx * axy + pxy * ayy + pxu * auy + pxv * avy
+        wyy = pxy * axy + pyy * ayy + pyu * auy + pyv * avy
+        wuy = pxu * axy + pyu * ayy + puu * auy + puv * avy
+        wvy = pxv * axy + pyv * ayy + puv * auy + pvv * avy
+        wxu = pxx * axu + pxy * ayu + pxu * auu + pxv * avu
+        wyu = pxy * axu + pyy * ayu + pyu * auu + pyv * avu
+        wuu = pxu * axu + pyu * ayu + puu * auu + puv * avu
+        wvu = pxv * axu + pyv * ayu + puv * auu + pvv * avu
+        wxv = pxx * axv + pxy * ayv + pxu * auv + pxv * avv
+        wyv = pxy * axv + pyy * ayv + pyu * auv + pyv * avv
+        wuv = pxu * axv + pyu * ayv + puu * auv + puv * avv
+        wvv = pxv * axv + pyv * ayv + puv * auv + pvv * avv
+        wxz, wxw = pxz * azz + pxw * awz, pxz * azw + pxw * aww
+        wyz, wyw = pyz * azz + pyw * awz, pyz * azw + pyw * aww
+        wuz, wuw = pzu * azz + puw * awz, pzu * azw + puw * aww
+        wvz, wvw = pzv * azz + pvw * awz, pzv * azw + pvw * aww
+        wzz, wzw = pzz * azz + pzw * awz, pzz * azw + pzw * aww
+        wwz, www = pzw * azz + pww * awz, pzw * azw + pww * aww
+        # M = A' W
+        mxx = axx * wxx + ayx * wyx + aux * wux + avx * wvx
+        mxy = axx * wxy + ayx * wyy + aux * wuy + avx * wvy
+        mxz = axx * wxz + ayx * wyz + aux * wuz + avx * wvz
+        mxu = axx * wxu + ayx * wyu + aux * wuu + avx * wvu
+        mxv = axx * wxv + ayx * wyv + aux * wuv + avx * wvv
+        mxw = axx * wxw + ayx * wyw + aux * wuw + avx * wvw
+        myy = axy * wxy + ayy * wyy + auy * wuy + avy * wvy
+        myz = axy * wxz + ayy * wyz + auy * wuz + avy * wvz
+        myu = axy * wxu + ayy * wyu + auy * wuu + avy * wvu
+        myv = axy * wxv + ayy * wyv + auy * wuv + avy * wvv
+        myw = axy * wxw + ayy * wyw + auy * wuw + avy * wvw
+        mzz = azz * wzz + awz * wwz
+        muz = axu * wxz + ayu * wyz + auu * wuz + avu * wvz
+        mvz = axv * wxz + ayv * wyz + auv * wuz + avv * wvz
+        mzw = azz * wzw + awz * www
+        muu = axu * wxu + ayu * wyu + auu * wuu + avu * wvu
+        muv = axu * wxv + ayu * wyv + auu * wuv + avu * wvv
+        muw = axu * wxw + ayu * wyw + auu * wuw + avu * wvw
+        mvv = axv * wxv + ayv * wyv + auv * wuv + avv * wvv
+        mvw = axv * wxw + ayv * wyw + auv * wuw + avv * wvw
+        mww = azw * wzw + aww * www
+        # inverse of the controls' part through its factors L D L'
+        d0 = 1.0 / (muu + work.control_curvature[i, 0])
+        l10, l20 = muv * d0, muw * d0
+        d1 = 1.0 / (mvv + work.control_curvature[i, 1] - l10 * muv)
+        e21 = mvw - l20 * muv
+        l21 = e21 * d1
+        d2 = 1.0 / (mww + work.control_curvature[i, 2] - l20 * muw - l21 * e21)
+        r20 = l10 * l21 - l20
+        i00 = d0 + l10 * l10 * d1 + r20 * r20 * d2
+        i01 = -l10 * d1 - r20 * l21 * d2
+        i02 = r20 * d2
+        i11 = d1 + l21 * l21 * d2
+        i12 = -l21 * d2
+        inverse = work.inverses[i]
+        inverse[0], inverse[1], inverse[2] = i00, i01, i02
+        inverse[3], inverse[4], inverse[5] = i11, i12, d2
+        kux, kvx, kwx = _column(i00, i01, i02, i11, i12, d2, mxu, mxv, mxw)
+        kuy, kvy, kwy = _column(i00, i01, i02, i11, i12, d2, myu, myv, myw)
+        kuz, kvz, kwz = _column(i00, i01, i02, i11, i12, d2, muz, mvz, mzw)
+        kuu, kvu, kwu = _column(i00, i01, i02, i11, i12, d2, muu, muv, muw)
+        kuv, kvv, kwv = _column(i00, i01, i02, i11, i12, d2, muv, mvv, mvw)
+        kuw, kvw, kww = _column(i00, i01, i02, i11, i12, d2, muw, mvw, mww)
+        gain = work.gains[i]
+        gain[0, 0], gain[0, 1], gain[0, 2] = kux, kuy, kuz
+        gain[0, 3], gain[0, 4], gain[0, 5] = kuu, kuv, kuw
+        gain[1, 0], gain[1, 1], gain[1, 2] = kvx, kvy, kvz
+        gain[1, 3], gain[1, 4], gain[1, 5] = kvu, kvv, kvw
+        gain[2, 0], gain[2, 1], gain[2, 2] = kwx, kwy, kwz
+        gain[2, 3], gain[2, 4], gain[2, 5] = kwu, kwv, kww
+        # P of the stage: its own curvature, M and what the controls take off
+        own = work.curvature[i]
+        pxx = own[0, 0] + mxx + mxu * kux + mxv * kvx + mxw * kwx
+        pxy = own[0, 1] + mxy + mxu * kuy + mxv * kvy + mxw * kwy
+        pxz = own[0, 2] + mxz + mxu * kuz + mxv * kvz + mxw * kwz
+        pxu = own[0, 3] + mxu + mxu * kuu + mxv * kvu + mxw * kwu
+        pxv = own[0, 4] + mxv + mxu * kuv + mxv * kvv + mxw * kwv
+        pxw = own[0, 5] + mxw + mxu * kuw + mxv * kvw + mxw * kww
+        pyy = own[1, 1] + myy + myu * kuy + myv * kvy + myw * kwy
+        pyz = own[1, 2] + myz + myu * kuz + myv * kvz + myw * kwz
+        pyu = own[1, 3] + myu + myu * kuu + myv * kvu + myw * kwu
+        pyv = own[1, 4] + myv + myu * kuv + myv * kvv + myw * kwv
+        pyw = own[1, 5] + myw + myu * kuw + myv * kvw + myw * kww
+        pzz = own[2, 2] + mzz + muz * kuz + mvz * kvz + mzw * kwz
+        pzu = own[2, 3] + muz + muz * kuu + mvz * kvu + mzw * kwu
+        pzv = own[2, 4] + mvz + muz * kuv + mvz * kvv + mzw * kwv
+        pzw = own[2, 5] + mzw + muz * kuw + mvz * kvw + mzw * kww
+        puu = own[3, 3] + muu + muu * kuu + muv * kvu + muw * kwu
+        puv = own[3, 4] + muv + muu * kuv + muv * kvv + muw * kwv
+        puw = own[3, 5] + muw + muu * kuw + muv * kvw + muw * kww
+        pvv = own[4, 4] + mvv + muv * kuv + mvv * kvv + mvw * kwv
+        pvw = own[4, 5] + mvw + muv * kuw + mvv * kvw + mvw * kww
+        pww = own[5, 5] + mww + muw * kuw + mvw * kvw + mww * kww
+
+
+@compiled_arithmetic
+def _column(i00, i01, i02, i11, i12, i22, x, y, z):
+    """Minus the symmetric inverse times one column."""
+    return (
+        -(i00 * x + i01 * y + i02 * z),
+        -(i01 * x + i11 * y + i12 * z),
+        -(i02 * x + i12 * y + i22 * z),
+    )
+
+
+@compiled_arithmetic
+def _step(transition, stages, work):
+    """Newton step of states and controls for the gradients in the workspace."""
+    axx, axy, axu, axv = transition[0, 0], transition[0, 1], transition[0, 3], transition[0, 4]
+    ayx, ayy, ayu, ayv = transition[1, 0], transition[1, 1], transition[1, 3], transition[1, 4]
+    aux, auy, auu, auv = transition[3, 0], transition[3, 1], transition[3, 3], transition[3, 4]
+    avx, avy, avu, avv = transition[4, 0], transition[4, 1], transition[4, 3], transition[4, 4]
+    azz, azw, awz, aww = transition[2, 2], transition[2, 5], transition[5, 2], transition[5, 5]
+    rhs = work.state_rhs
+    px, py, pz = rhs[stages, 0], rhs[stages, 1], rhs[stages, 2]
+    pu, pv, pw = rhs[stages, 3], rhs[stages, 4], rhs[stages, 5]
+    for i in range(stages - 1, -1, -1):
+        mx = axx * px + ayx * py + aux * pu + avx * pv
+        my = axy * px + ayy * py + auy * pu + avy * pv
+        mu = axu * px + ayu * py + auu * pu + avu * pv
+        mv = axv * px + ayv * py + auv * pu + avv * pv
+        mz, mw = azz * pz + awz * pw, azw * pz + aww * pw
+        x, y = work.control_rhs[i, 0] + mu, work.control_rhs[i, 1] + mv
+        z = work.control_rhs[i, 2] + mw
+        inv, gain = work.inverses[i], work.gains[i]
+        work.feedforward[i, 0] = -(inv[0] * x + inv[1] * y + inv[2] * z)
+        work.feedforward[i, 1] = -(inv[1] * x + inv[3] * y + inv[4] * z)
+        work.feedforward[i, 2] = -(inv[2] * x + inv[4] * y + inv[5] * z)
+        px = rhs[i, 0] + mx + gain[0, 0] * x + gain[1, 0] * y + gain[2, 0] * z
+        py = rhs[i, 1] + my + gain[0, 1] * x + gain[1, 1] * y + gain[2, 1] * z
+        pz = rhs[i, 2] + mz + gain[0, 2] * x + gain[1, 2] * y + gain[2, 2] * z
+        pu = rhs[i, 3] + mu + gain[0, 3] * x + gain[1, 3] * y + gain[2, 3] * z
+        pv = rhs[i, 4] + mv + gain[0, 4] * x + gain[1, 4] * y + gain[2, 4] * z
+        pw = rhs[i, 5] + mw + gain[0, 5] * x + gain[1, 5] * y + gain[2, 5] * z
+    dx, du = work.state_steps, work.control_steps
+    x, y, z, u, v, w = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for i in range(stages):
+        gain = work.gains[i]
+        for j in range(CONTROLS):
+            du[i, j] = (
+                work.feedforward[i, j]
+                + (gain[j, 0] * x + gain[j, 1] * y + gain[j, 2] * z)
+                + (gain[j, 3] * u + gain[j, 4] * v + gain[j, 5] * w)
+            )
+        u += du[i, 0]
+        v += du[i, 1]
+        w += du[i, 2]
+        nx = axx * x + axy * y + axu * u + axv * v
+        ny = ayx * x + ayy * y + ayu * u + ayv * v
+        nu = aux * x + auy * y + auu * u + auv * v
+        nv = avx * x + avy * y + avu * u + avv * v
+        z, w = azz * z + azw * w, awz * z + aww * w
+        x, y, u, v = nx, ny, nu, nv
+        dx[i + 1, 0], dx[i + 1, 1], dx[i + 1, 2] = x, y, z
+        dx[i + 1, 3], dx[i + 1, 4], dx[i + 1, 5] = u, v, w
+
+
+@compiled_arithmetic
+def _largest_control_gradient(transition, stages, work):
+    """Largest component of the gradient in the controls, for the gradients in the workspace."""
+    costate = work.state_rhs[stages].copy()
+    mapped = np.zeros(STATES)
+    largest = 0.0
+    for i in range(stages - 1, -1, -1):
+        for k in range(STATES):
+            total = 0.0
+            for m in range(STATES):
+                total += transition[m, k] * costate[m]
+            mapped[k] = total
+        for k in range(CONTROLS):
+            largest = max(largest, abs(work.control_rhs[i, k] + mapped[3 + k]))
+        for k in range(STATES):
+            costate[k] = work.state_rhs[i, k] + mapped[k]
+    return largest
+
+
+@compiled_arithmetic
+def solve(program, stages, start, work, tolerance, iteration_limit):
+    """Solve one program.
+
+    Parameters
+    ----------
+    program, stages, start
+        The problem, its number of stages and the state that it starts from, (6,).
+    work
+        Receives states and controls.
+    tolerance
+        Of the complementarity and of the stationarity, relative to the largest gradient in a
+        control where no control acts.
+    iteration_limit
+        Most steps.
+
+    Returns
+    -------
+    int, int
+        `SOLVED`, `ITERATION_LIMIT` or `NUMERICAL`; steps taken.
+    """
+    transition = program.transition
+    x, u, dx, du = work.states, work.controls, work.state_steps, work.control_steps
+    rows, boxes = work.rows, work.boxes
+    limits, weights, values = rows[0], rows[1], rows[2]
+    t, s, y = rows[3], rows[4], rows[5]
+    dt, ds, dy, curvature = rows[6], rows[7], rows[8], rows[9]
+    push, moved = rows[10], rows[11]
+    above, below, upper, lower = boxes[0], boxes[1], boxes[2], boxes[3]
+    dupper, dlower, by_above, by_below = boxes[4], boxes[5], boxes[6], boxes[7]
+    curved = boxes[8]
+    v, dv, push_control = u.reshape(-1), du.reshape(-1), work.control_rhs.reshape(-1)
+
+    v[: CONTROLS * stages] = 0.0
+    roll_out(transition, start, u, stages, x)
+    _list_rows(program, stages, limits, weights)
+    count = _gather(program, stages, x, u, values)
+    _objective_gradient(program, stages, work)
+    scale = max(_largest_control_gradient(transition, stages, work), 1e-300)
+    mu = scale
+    _start_rows(count, rows, mu)
+    controls = CONTROLS * stages
+    for c in range(controls):
+        above[c], below[c] = 1.0, 1.0
+        upper[c], lower[c] = mu, mu
+    pairs = 2.0 * (count + controls)
+    mu *= 2.0 * controls
+    for r in range(count):
+        mu += y[r] * t[r] + (weights[r] - y[r]) * s[r]
+    mu /= pairs
+    residual = 1.0
+
+    for iteration in range(iteration_limit):
+        if mu <= tolerance * scale and residual <= tolerance:
+            return SOLVED, iteration
+        # predictor: complementarity is aimed at zero
+        for r in range(count):
+            free = weights[r] - y[r]
+            d = y[r] * free / (t[r] * free + s[r] * y[r])
+            curvature[r] = d
+            push[r] = y[r] + d * (values[r] - limits[r])
+        for c in range(controls):
+            by_above[c] = 1.0 / above[c]
+            by_below[c] = 1.0 / below[c]
+            curved[c] = upper[c] * by_above[c] + lower[c] * by_below[c]
+        _assemble_curvature(program, stages, work)
+        _factor(transition, stages, work)
+        _objective_gradient(program, stages, work)
+        _scatter(program, stages, push, work.state_rhs, work.control_rhs)
+        _step(transition, stages, work)
+        _gather(program, stages, dx, du, moved)
+        # four maxima side by side, none of which waits for another
+        first, second, third, fourth = 0.0, 0.0, 0.0, 0.0
+        for r in range(count):
+            step = curvature[r] * (moved[r] + values[r] - limits[r])
+            by_multiplier, by_free = step / y[r], step / (weights[r] - y[r])
+            dy[r] = step
+            dt[r] = -t[r] - t[r] * by_multiplier
+            ds[r] = -s[r] + s[r] * by_free
+            first, second = max(first, 1.0 + by_multiplier), max(second, 1.0 - by_free)
+            third, fourth = max(third, -by_multiplier), max(fourth, by_free)
+        for c in range(controls):
+            to_above, to_below = dv[c] * by_above[c], dv[c] * by_below[c]
+            dupper[c] = upper[c] * (to_above - 1.0)
+            dlower[c] = -lower[c] * (to_below + 1.0)
+            first, second = max(first, to_above), max(second, -to_below)
+            third, fourth = max(third, 1.0 - to_above), max(fourth, 1.0 + to_below)
+        worst = max(first, second, third, fourth)
+        alpha = 1.0 if worst <= 1.0 else 1.0 / worst
+        after = 0.0
+        for r in range(count):
+            yn = y[r] + alpha * dy[r]
+            after += yn * (t[r] + alpha * dt[r]) + (weights[r] - yn) * (s[r] + alpha * ds[r])
+        for c in range(controls):
+            step = alpha * dv[c]
+            after += (upper[c] + alpha * dupper[c]) * (above[c] - step)
+            after += (lower[c] + alpha * dlower[c]) * (below[c] + step)
+        after /= pairs
+        target = after * (after / mu) * (after / mu)
+
+        # corrector: aimed at the target, with the products of the predictor's steps
+        for r in range(count):
+            free = weights[r] - y[r]
+            ct = target - y[r] * t[r] - dy[r] * dt[r]
+            cs = target - free * s[r] + dy[r] * ds[r]
+            rest = values[r] + t[r] - s[r] - limits[r] + ct / y[r] - cs / free
+            dt[r] = ct
+            ds[r] = cs
+            dy[r] = curvature[r] * rest
+            push[r] = y[r] + dy[r] - push[r]
+        _scatter(program, stages, push, work.state_rhs, work.control_rhs)
+        for c in range(controls):
+            cu = target + dupper[c] * dv[c]
+            cl = target - dlower[c] * dv[c]
+            push_control[c] += cu * by_above[c] - cl * by_below[c]
+            dupper[c] = cu * by_above[c] - upper[c]
+            dlower[c] = cl * by_below[c] - lower[c]
+        _step(transition, stages, work)
+        _gather(program, stages, dx, du, moved)
+        first, second, third, fourth = 0.0, 0.0, 0.0, 0.0
+        for r in range(count):
+            step = dy[r] + curvature[r] * moved[r]
+            by_multiplier, by_free = 1.0 / y[r], 1.0 / (weights[r] - y[r])
+            dy[r] = step
+            dt[r] = (dt[r] - t[r] * step) * by_multiplier
+            ds[r] = (ds[r] + s[r] * step) * by_free
+            first, second = max(first, -dt[r] / t[r]), max(second, -ds[r] / s[r])
+            third, fourth = max(third, -step * by_multiplier), max(fourth, step * by_free)
+        for c in range(controls):
+            to_above, to_below = dv[c] * by_above[c], dv[c] * by_below[c]
+            dupper[c] += upper[c] * to_above
+            dlower[c] -= lower[c] * to_below
+            first, second = max(first, to_above), max(second, -to_below)
+            third, fourth = max(third, -dupper[c] / upper[c]), max(fourth, -dlower[c] / lower[c])
+        worst = max(first, second, third, fourth)
+        alpha = 1.0 if worst <= BOUNDARY else BOUNDARY / worst
+        mu = 0.0
+        for r in range(count):
+            t[r] += alpha * dt[r]
+            s[r] += alpha * ds[r]
+            y[r] += alpha * dy[r]
+            mu += y[r] * t[r] + (weights[r] - y[r]) * s[r]
+        for c in range(controls):
+            step = alpha * dv[c]
+            v[c] += step
+            above[c] -= step
+            below[c] += step
+            upper[c] += alpha * dupper[c]
+            lower[c] += alpha * dlower[c]
+            mu += upper[c] * above[c] + lower[c] * below[c]
+        mu /= pairs
+        for i in range(1, stages + 1):
+            for k in range(STATES):
+                x[i, k] += alpha * dx[i, k]
+        _gather(program, stages, x, u, values)
+        residual *= 1.0 - alpha
+        if not mu < np.inf:
+            return NUMERICAL, iteration + 1
+    return ITERATION_LIMIT, iteration_limit

@@ -1,0 +1,446 @@
+"""Predicates of the document's prose claims.
+
+The signature is that of `smallsat.evidence.claims.Predicate`: the whole configuration and the
+folder with the study's results.
+"""
+
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from smallsat.config import Config
+from smallsat.dynamics.attitude.mrp import dcm_to_mrp, mrp_rate
+from smallsat.dynamics.attitude.rigid_body import angular_acceleration
+from smallsat.dynamics.orbits.circular_orbits import hill_frame, orbit_frame, position, velocity
+from smallsat.evidence.claims import Judgement, judged
+from smallsat.results import read_table
+from smallsat.studies.mars.methods.independent_check import attitude_angle, inertial_momentum
+from smallsat.studies.mars.methods.simulation import OPEN_LOOP, run
+from smallsat.studies.mars.model.frames import (
+    SUN_FRAME,
+    gmo_frame,
+    gmo_frame_rate,
+    nadir_frame,
+    nadir_frame_rate,
+)
+from smallsat.studies.mars.model.gains import damping_ratios, decay_times
+from smallsat.studies.mars.parameters import MARS_DAY, Parameters, parameters
+
+SIGMA = ["sigma_1", "sigma_2", "sigma_3"]
+OMEGA = ["omega_1", "omega_2", "omega_3"]
+SIGMA_REFERENCE = ["sigma_ref_1", "sigma_ref_2", "sigma_ref_3"]
+
+ROUNDING = 1e-12
+# A pointing error below this at the end of a run counts as having converged, deg.
+CONVERGED_DEG = 0.1
+# Decay times after a start by which the error must have followed the required decay.
+DECAY_TIMES = 5.0
+# A time history differs visibly in a plot of attitudes from this angle on, deg.
+VISIBLE_DEG = 1.0
+
+
+def velocity_is_radius_times_rate(config: Config, results: Path) -> Judgement:
+    """Eq. 6 against a central difference of the position."""
+    given = parameters(config["mars"])
+    worst = 0.0
+    for orbit in (given.lmo, given.gmo):
+        for time in np.linspace(0.0, config["mars"]["durations_s"]["mission"], 50):
+            ahead, behind = position(orbit, time + 1.0), position(orbit, time - 1.0)
+            by_difference = np.subtract(ahead, behind) / 2.0
+            speed = orbit.radius * orbit.rate
+            error = np.linalg.norm(by_difference - np.array(velocity(orbit, time))) / speed
+            worst = max(worst, float(error))
+    return judged(
+        worst < 1e-6,
+        f"a central difference of the position over 2 s differs from Eq. 6 by at most {worst:.1e} "
+        f"of the speed, on both orbits",
+    )
+
+
+def rates_follow_from_one_gravity(config: Config, results: Path) -> Judgement:
+    """Constant rate sqrt(mu / r^3): both rates of Table 2 must belong to one mu."""
+    given = parameters(config["mars"])
+    mu = [orbit.rate**2 * orbit.radius**3 / 1e9 for orbit in (given.lmo, given.gmo)]
+    apart = abs(mu[0] / mu[1] - 1.0)
+    # The rates have six significant digits, and mu goes with their square.
+    return judged(
+        apart < 2e-5,
+        f"the rates and radii of Table 2 make mu = {mu[0]:.1f} and {mu[1]:.1f} km^3/s^2, "
+        f"{apart:.1e} apart: {'equal' if apart < 2e-5 else 'not equal'} to the digits printed",
+    )
+
+
+def areosynchronous(config: Config, results: Path) -> Judgement:
+    """The mothercraft's period against the Mars day of Section XIII.B."""
+    period = 2.0 * np.pi / config["mars"]["orbits"]["gmo"]["rate_rad_s"]
+    return judged(
+        abs(period - MARS_DAY) < 1.0,
+        f"its period is {period:.1f} s, the Mars day given is {MARS_DAY:g} s",
+    )
+
+
+def euler_angle_rates(config: Config, results: Path) -> Judgement:
+    """Eq. 11 with the orbit's rate about its normal only."""
+    given = parameters(config["mars"])
+    lmo = given.lmo
+    s, c = np.sin(lmo.inclination), np.cos(lmo.inclination)
+    angle = lmo.latitude_angle
+    matrix = np.array(
+        [
+            [np.sin(angle), np.cos(angle), 0.0],
+            [np.cos(angle) * s, -np.sin(angle) * s, 0.0],
+            [-np.sin(angle) * c, -np.cos(angle) * c, s],
+        ]
+    )
+    if s == 0.0:
+        return Judgement("undecided", "Eq. 11 divides by sin i, which is 0 on the LMO orbit")
+    rates = matrix @ np.array([0.0, 0.0, lmo.rate]) / s
+    gmo_sine = np.sin(given.gmo.inclination)
+    note = " (Eq. 11 divides by sin i = 0 on the GMO orbit, where only the limit holds)"
+    return judged(
+        bool(np.allclose(rates, [0.0, 0.0, lmo.rate], rtol=ROUNDING, atol=0.0)),
+        f"on the LMO orbit Eq. 11 gives node, inclination and angle the rates {rates[0]:.0f}, "
+        f"{rates[1]:.0f} and {rates[2]:.6g} rad/s{note if gmo_sine == 0.0 else ''}",
+    )
+
+
+def hill_frame_is_orbit_frame(config: Config, results: Path) -> Judgement:
+    """[HN] from position and velocity against [ON] from the Euler angles."""
+    given = parameters(config["mars"])
+    worst = 0.0
+    for orbit in (given.lmo, given.gmo):
+        for time in np.linspace(0.0, config["mars"]["durations_s"]["mission"], 200):
+            hill = np.array(hill_frame(position(orbit, time), velocity(orbit, time)))
+            worst = max(worst, float(np.max(np.abs(hill - np.array(orbit_frame(orbit, time))))))
+    return judged(
+        worst < ROUNDING, f"over the mission no entry differs by more than {worst:.1e}, both orbits"
+    )
+
+
+def nadir_frame_is_flipped_orbit_frame(config: Config, results: Path) -> Judgement:
+    """[RnN] against [ON] with the first and third rows negated."""
+    lmo = parameters(config["mars"]).lmo
+    flip = np.array([[-1.0], [1.0], [-1.0]])
+    times = np.linspace(0.0, config["mars"]["durations_s"]["mission"], 200)
+    worst = max(
+        float(np.max(np.abs(np.array(nadir_frame(lmo, t)) - flip * np.array(orbit_frame(lmo, t)))))
+        for t in times
+    )
+    return judged(worst < ROUNDING, f"over the mission no entry differs by more than {worst:.1e}")
+
+
+def nadir_rate_is_orbit_rate(config: Config, results: Path) -> Judgement:
+    """Eq. 26 against a central difference of [RnN]."""
+    lmo = parameters(config["mars"]).lmo
+    times = np.linspace(0.0, config["mars"]["durations_s"]["mission"], 50)
+    worst = max(
+        float(np.linalg.norm(_frame_rate(lambda t: nadir_frame(lmo, t), time) - np.array(rate)))
+        for time, rate in ((time, nadir_frame_rate(lmo, time)) for time in times)
+    )
+    return judged(
+        worst < 1e-6 * lmo.rate,
+        f"a central difference of [RnN] gives this vector to {worst / lmo.rate:.1e} of its size",
+    )
+
+
+def finite_difference_converges(config: Config, results: Path) -> Judgement:
+    """The forward difference of [RcN] against a far more accurate one, for shrinking dt."""
+    section = config["mars"]
+    given = parameters(section)
+    time = float(section["answer_times_s"]["reference_frames"])
+    exact = _frame_rate(lambda t: gmo_frame(given.lmo, given.gmo, t), time)
+    spans = [section["frame_difference_s"]["control"] / 10**n for n in range(4)]
+    errors = [
+        float(np.linalg.norm(np.array(gmo_frame_rate(given.lmo, given.gmo, time, dt)) - exact))
+        for dt in spans
+    ]
+    # A difference of entries of size one cannot be better than their rounding over its span.
+    floor = [np.finfo(float).eps / dt for dt in spans[1:]]
+    falls = all(
+        later < max(0.2 * earlier, least)
+        for (earlier, later), least in zip(pairwise(errors), floor, strict=True)
+    )
+    listed = ", ".join(f"{error:.1e} at {dt:g} s" for error, dt in zip(errors, spans, strict=True))
+    return judged(falls, f"error of omega_Rc/N in rad/s: {listed}: it falls in proportion to dt")
+
+
+def torque_free_invariants(config: Config, results: Path) -> Judgement:
+    """Momentum, energy and an independent integration of the run without torque."""
+    inertia = parameters(config["mars"]).inertia
+    ours, again = _both(results, "no torque")
+    if not ours[OMEGA].to_numpy().any():
+        return Judgement("undecided", "the body rests: nothing moves that could be conserved")
+    momentum = inertial_momentum(inertia, ours[SIGMA].to_numpy(), ours[OMEGA].to_numpy())
+    energy = 0.5 * np.sum(inertia * ours[OMEGA].to_numpy() ** 2, axis=1)
+    drift = np.linalg.norm(momentum - momentum[0], axis=1).max() / np.linalg.norm(momentum[0])
+    loss = np.max(np.abs(energy / energy[0] - 1.0))
+    apart = np.degrees(_apart(ours, again)).max()
+    return judged(
+        bool(max(drift, loss) < 1e-6 and apart < 1e-3),
+        f"over {ours['time_s'].max():g} s the inertial momentum drifts by {drift:.1e} and the "
+        f"energy by {loss:.1e} of their size; an adaptive integration stays within {apart:.1e} deg",
+    )
+
+
+def rates_oscillate_about_zero(config: Config, results: Path) -> Judgement:
+    """Sign changes of each rate in the first and the last quarter of the fixed-torque run."""
+    _, accurate = _both(results, "fixed torque")
+    rate = accurate[OMEGA].to_numpy()
+    quarter = len(rate) // 4
+    first, last = _sign_changes(rate[:quarter]), _sign_changes(rate[-quarter:])
+    mean = rate[-quarter:].mean(axis=0)
+    listed = "; ".join(
+        f"omega_{i + 1}: {first[i]} sign changes in the first quarter, {last[i]} in the last"
+        for i in range(3)
+    )
+    return judged(
+        bool(np.all(last > first)),
+        f"{listed}; means in the last quarter {_text(mean, 3)} rad/s: a component far from zero "
+        f"spins up and does not oscillate about it. The listing's panel of omega_2 shows omega_1, "
+        f"which hides this",
+    )
+
+
+def attitude_oscillation_speeds_up(config: Config, results: Path) -> Judgement:
+    """Speed of the attitude's rotation and sign changes of the accurate attitude."""
+    _, accurate = _both(results, "fixed torque")
+    speed = np.linalg.norm(accurate[OMEGA].to_numpy(), axis=1)
+    quarter = len(speed) // 4
+    means = [speed[k * quarter : (k + 1) * quarter].mean() for k in range(4)]
+    changes = [
+        int(_sign_changes(accurate[SIGMA].to_numpy()[k * quarter : (k + 1) * quarter]).sum())
+        for k in (0, 3)
+    ]
+    return judged(
+        bool(np.all(np.diff(means) > 0) and changes[1] > changes[0]),
+        f"mean rate by quarters: {', '.join(f'{m:.2f}' for m in means)} rad/s; the MRPs change "
+        f"sign {changes[0]} times in the first quarter and {changes[1]} times in the last",
+    )
+
+
+def step_leaves_artefacts(config: Config, results: Path) -> Judgement:
+    """The fixed-torque run with the document's step and smaller ones against an adaptive method."""
+    section = config["mars"]
+    given = parameters(section)
+    _, accurate = _both(results, "fixed torque")
+    duration, switch = section["durations_s"]["response"], section["mrp_switch"]["torque"]
+    torque = np.array(section["fixed_torque_N_m"], dtype=float)
+    errors = {}
+    for division in (1, 2, 4):
+        step = section["step_s"] / division
+        record = run(given, OPEN_LOOP, duration, step, step, switch, torque)
+        angles = attitude_angle(record[::division, 1:4], accurate[SIGMA].to_numpy())
+        errors[step] = np.degrees(angles)
+    whole, half, quarter = errors.values()
+    listed = ", ".join(f"{error[-1]:.3g} deg at {step:g} s" for step, error in errors.items())
+    visible = np.flatnonzero(whole > VISIBLE_DEG)
+    falls = bool(half[-1] < whole[-1] / 8 and quarter[-1] < half[-1] / 8)
+    order = (
+        "it falls with the fourth power of the step, so it is the integration's, and "
+        if falls
+        else "it "
+    )
+    since = f" from {accurate['time_s'].to_numpy()[visible[0]]:g} s on" if len(visible) else ""
+    if whole[-1] > VISIBLE_DEG and not falls:
+        return Judgement(
+            "undecided",
+            f"attitude error at the end by step size: {listed}; it does not fall with the step yet",
+        )
+    return judged(
+        bool(whole[-1] > VISIBLE_DEG),
+        f"attitude error at the end by step size: {listed}; {order}"
+        f"{'exceeds' if len(visible) else 'never exceeds'} {VISIBLE_DEG:g} deg{since}",
+    )
+
+
+def gains_meet_requirements(config: Config, results: Path) -> Judgement:
+    """Largest decay time and damping ratio, from the eigenvalues of the linearised closed loop."""
+    section = config["mars"]
+    given = parameters(section)
+    required = section["requirements"]
+    pairs = _closed_loop_eigenvalues(given)
+    slowest, most_damped = _decay_and_damping(pairs)
+    return judged(
+        bool(
+            np.isclose(slowest.max(), required["largest_decay_time_s"], rtol=1e-4)
+            and np.isclose(most_damped.max(), required["largest_damping_ratio"], rtol=1e-4)
+        ),
+        f"eigenvalues of the linearised loop: decay times {_text(slowest, 1)} s, damping ratios "
+        f"{_text(most_damped, 3)} about axes 1, 2, 3; required at most "
+        f"{required['largest_decay_time_s']:g} s and {required['largest_damping_ratio']:g}",
+    )
+
+
+def performance_formulas(config: Config, results: Path) -> Judgement:
+    """Eqs. 35 and 36 against the eigenvalues of the linearised closed loop."""
+    given = parameters(config["mars"])
+    slowest, damping = _decay_and_damping(_closed_loop_eigenvalues(given))
+    by_35, by_36 = (
+        decay_times(given.inertia, given.gains),
+        damping_ratios(given.inertia, given.gains),
+    )
+    apart = max(np.max(np.abs(slowest / by_35 - 1.0)), np.max(np.abs(damping / by_36 - 1.0)))
+    return judged(
+        bool(apart < 1e-4),
+        f"decay times {_text(by_35, 1)} s and damping ratios {_text(by_36, 3)} by the formulas "
+        f"differ from the eigenvalues' by at most {apart:.1e}",
+    )
+
+
+def extremes_fall_on_extreme_inertias(config: Config, results: Path) -> Judgement:
+    """Which axes have the largest decay time and the largest damping ratio."""
+    given = parameters(config["mars"])
+    slowest = int(np.argmax(decay_times(given.inertia, given.gains)))
+    damped = int(np.argmax(damping_ratios(given.inertia, given.gains)))
+    return judged(
+        slowest == int(np.argmax(given.inertia)) and damped == int(np.argmin(given.inertia)),
+        f"the largest decay time is about axis {slowest + 1} ({given.inertia[slowest]:g} kg m^2), "
+        f"the largest damping ratio about axis {damped + 1} ({given.inertia[damped]:g} kg m^2)",
+    )
+
+
+def sun_pointing_converges(config: Config, results: Path) -> Judgement:
+    """Sun pointing: error and the attitude reached."""
+    ours, _ = _both(results, "sun")
+    target = np.array(dcm_to_mrp(SUN_FRAME))
+    return _converges(config, ours, f"; the frame's MRPs are {_text(target, 4)}")
+
+
+def nadir_pointing_converges(config: Config, results: Path) -> Judgement:
+    """Nadir pointing: error at the end, and whether it decays as required."""
+    return _converges(config, _both(results, "nadir")[0])
+
+
+def gmo_pointing_converges(config: Config, results: Path) -> Judgement:
+    """GMO pointing: error at the end, and whether it decays as required."""
+    return _converges(config, _both(results, "gmo")[0])
+
+
+def mission_converges(config: Config, results: Path) -> Judgement:
+    """Every interval of the mission: error five decay times after its start, and at its end."""
+    ours, _ = _both(results, "mission")
+    mode = ours["mode"].to_numpy()
+    starts = np.r_[0, np.flatnonzero(np.diff(mode[:-1])) + 1]
+    ends = np.r_[starts[1:], len(mode) - 1]
+    intervals = [
+        _decay(config, ours.iloc[start:end]) for start, end in zip(starts, ends, strict=True)
+    ]
+    decayed = [later / allowed for _, later, allowed, _ in intervals if not np.isnan(later)]
+    if len(decayed) < len(intervals):
+        return Judgement("undecided", f"an interval is shorter than {DECAY_TIMES:g} decay times")
+    worst_end = max(end for *_, end in intervals)
+    return judged(
+        max(decayed) <= 1.0 and worst_end < CONVERGED_DEG,
+        f"in {len(intervals)} intervals the pointing error is at most {max(decayed):.0%} of what "
+        f"the required decay allows {DECAY_TIMES:g} decay times after the switch, and at most "
+        f"{worst_end:.3f} deg at the interval's end",
+    )
+
+
+def modes_switch_automatically(config: Config, results: Path) -> Judgement:
+    """The mission visits all modes, and each is the one Table 7 asks for."""
+    section = config["mars"]
+    given = parameters(section)
+    ours, _ = _both(results, "mission")
+    times, mode = ours["time_s"].to_numpy(), ours["mode"].to_numpy()
+    lmo = np.array([orbit_frame(given.lmo, t)[0] for t in times])
+    gmo = np.array([orbit_frame(given.gmo, t)[0] for t in times])
+    separation = np.arccos(np.clip(np.sum(lmo * gmo, axis=1), -1.0, 1.0))
+    expected = np.where(lmo[:, 1] > 0.0, 0, np.where(separation <= given.visibility, 2, 1))
+    wrong = int(np.sum(expected != mode))
+    switches = times[1:][np.diff(mode) != 0]
+    if wrong == 0 and set(mode) != {0, 1, 2}:
+        return Judgement("undecided", "not every mode holds at some time of this run's mission")
+    return judged(
+        wrong == 0,
+        f"switches at {', '.join(f'{t:g}' for t in switches)} s; at {wrong} of {len(times)} steps "
+        f"the mode differs from Table 7",
+    )
+
+
+def _both(results: Path, name: str) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """A run as recorded and by the independent check.
+
+    Raises
+    ------
+    LookupError
+        If one of them overflowed.
+    """
+    tables = (read_table(results / f"{stem}.parquet") for stem in ("trajectories", "independent"))
+    ours, again = (t[t["run"] == name].reset_index(drop=True) for t in tables)
+    if not np.isfinite(np.vstack([one[SIGMA + OMEGA].to_numpy() for one in (ours, again)])).all():
+        raise LookupError(f"the run '{name}' overflowed")
+    return ours, again
+
+
+def _apart(ours: pd.DataFrame, again: pd.DataFrame) -> np.ndarray:
+    return attitude_angle(ours[SIGMA].to_numpy(), again[SIGMA].to_numpy())
+
+
+def _sign_changes(values: np.ndarray) -> np.ndarray:
+    return np.sum(np.diff(np.signbit(values), axis=0), axis=0)
+
+
+def _frame_rate(frame, time: float, span: float = 0.1) -> np.ndarray:
+    """Inertial rate of a frame by a central difference of order 4."""
+    weights = {-2: 1.0, -1: -8.0, 1: 8.0, 2: -1.0}
+    change = sum(w * np.array(frame(time + n * span)) for n, w in weights.items()) / (12.0 * span)
+    tilde = np.array(frame(time)).T @ change
+    # d[RN]/dt = -[~w][RN] in frame components, so that [NR] d[RN]/dt is -[~w] in inertial ones.
+    return np.array([tilde[1, 2], tilde[2, 0], tilde[0, 1]])
+
+
+def _closed_loop_eigenvalues(given: Parameters) -> np.ndarray:
+    """Eigenvalues of the regulator linearised at rest, shape (3, 2): a pair an axis."""
+
+    def rate_of(state: np.ndarray) -> np.ndarray:
+        torque = -given.gains.k * state[:3] - given.gains.p * state[3:]
+        acceleration = angular_acceleration(given.inertia, state[3:], torque)
+        return np.r_[mrp_rate(state[:3], state[3:]), acceleration]
+
+    small = 1e-6
+    columns = [
+        (rate_of(small * direction) - rate_of(-small * direction)) / (2 * small)
+        for direction in np.eye(6)
+    ]
+    jacobian = np.array(columns).T
+    return np.array([np.linalg.eigvals(jacobian[np.ix_([i, i + 3], [i, i + 3])]) for i in range(3)])
+
+
+def _decay_and_damping(pairs: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Decay time -2 / trace and damping ratio of each pair of eigenvalues."""
+    trace, product = np.real(pairs.sum(axis=1)), np.real(pairs.prod(axis=1))
+    return -2.0 / trace, -trace / (2.0 * np.sqrt(product))
+
+
+def _decay(config: Config, rows: pd.DataFrame) -> tuple[float, float, float, float]:
+    """Pointing error, deg: at the start, after `DECAY_TIMES`, what is allowed then, at the end.
+
+    Allowed is twice the decayed initial error: an oscillating axis may be ahead of its envelope,
+    and the initial rate adds to the amplitude.
+    """
+    requirement = config["mars"]["requirements"]["largest_decay_time_s"]
+    angle = attitude_angle(rows[SIGMA_REFERENCE].to_numpy(), rows[SIGMA].to_numpy())
+    error = np.degrees(angle)
+    time = rows["time_s"].to_numpy() - rows["time_s"].to_numpy()[0]
+    late = error[time >= DECAY_TIMES * requirement]
+    later = float(late.max()) if len(late) else np.nan
+    return error[0], later, 2.0 * error[0] * np.exp(-DECAY_TIMES), float(error[-1])
+
+
+def _converges(config: Config, rows: pd.DataFrame, note: str = "") -> Judgement:
+    start, later, allowed, end = _decay(config, rows)
+    if np.isnan(later):
+        return Judgement("undecided", f"the run is shorter than {DECAY_TIMES:g} decay times")
+    return judged(
+        later <= allowed and end < CONVERGED_DEG,
+        f"pointing error {start:.1f} deg at the start, at most {later:.3f} deg from "
+        f"{DECAY_TIMES:g} decay times on (the requirement allows {allowed:.2f}), {end:.3f} deg "
+        f"after {rows['time_s'].max():g} s{note}",
+    )
+
+
+def _text(values: np.ndarray, decimals: int) -> str:
+    return f"({', '.join(f'{value:.{decimals}f}' for value in values)})"

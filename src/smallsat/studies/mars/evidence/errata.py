@@ -1,0 +1,402 @@
+"""Proofs of the errata: each recomputes a quantity as printed and as corrected, and can fail.
+
+The signature is that of `smallsat.evidence.errata.ProofFunction`: the whole configuration and the
+folder with the study's results.
+"""
+
+from pathlib import Path
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from smallsat.config import Config
+from smallsat.dynamics.attitude.mrp import mrp_to_dcm
+from smallsat.dynamics.attitude.rigid_body import angular_momentum, kinetic_energy
+from smallsat.dynamics.orbits.circular_orbits import orbit_frame, position
+from smallsat.evidence.errata import Proof
+from smallsat.results import read_table
+from smallsat.studies.mars.evidence.observations import row_at
+from smallsat.studies.mars.evidence.printed import literal
+from smallsat.studies.mars.methods.simulation import (
+    AUTOMATIC,
+    POINTING_RUNS,
+    document_runs,
+    finite,
+    run,
+    tracking_error,
+)
+from smallsat.studies.mars.model.frames import (
+    SUN_FRAME,
+    SUN_FRAME_RATE,
+    gmo_frame,
+    nadir_frame,
+    nadir_frame_rate,
+)
+from smallsat.studies.mars.model.gains import Gains, damping_ratios
+from smallsat.studies.mars.parameters import KM, MARS_DAY, parameters
+
+# Printed literals that a proof confronts with what is computed.
+PRINTED_TABLE_8_SIGMA_1 = -0.443  # Table 8, 4400 s
+PRINTED_TABLE_8_TIME = 3  # its place among the mission's answer times
+PRINTED_ENERGY = 0.00938  # J, Section IX.B
+PRINTED_POSITION_450 = (-669.3, 3227.5, 1883.2)  # km, Section III.C
+LISTED_DAY = 90000.0  # s, Listing A.L
+
+HALF_OF_3_DECIMALS, HALF_OF_4_DECIMALS = 0.5e-3, 0.5e-4
+ORTHOGONAL = 1e-12  # what rounding may leave of an orthogonal matrix's defect
+
+
+def table_8_misprint(config: Config, results: Path) -> Proof:
+    """Table 8, 4400 s: no threshold, step or integrator gives the printed first component."""
+    section = config["mars"]
+    given = parameters(section)
+    time = section["answer_times_s"]["mission"][PRINTED_TABLE_8_TIME]
+    difference = section["frame_difference_s"]["control"]
+    thresholds = sorted(set(section["mrp_switch"].values()))
+    steps = [section["step_s"] / n for n in (1, 2, 4)]
+    found = [
+        _row(run(given, AUTOMATIC, time, step, difference, threshold), time, "mission")[1:4]
+        for step in steps
+        for threshold in thresholds
+    ]
+    again = read_table(results / "independent.parquet").query("run == 'mission'")
+    sigma_columns = ["sigma_1", "sigma_2", "sigma_3"]
+    found.append(again.loc[np.isclose(again["time_s"], time), sigma_columns].to_numpy()[0])
+    # Whatever set each run ended in, the printed value might stand for the other one.
+    sigma = np.array(found)
+    shadows = -sigma / np.sum(sigma**2, axis=1, keepdims=True)
+    sigma_1 = np.r_[sigma[:, 0], shadows[:, 0]]
+    closest = float(np.min(np.abs(sigma_1 - PRINTED_TABLE_8_SIGMA_1)))
+    ours = _row(document_runs(section, given)["mission"], time, "mission")[1]
+    return Proof(
+        holds=closest > 2 * HALF_OF_3_DECIMALS,
+        as_printed=f"sigma_1 = {PRINTED_TABLE_8_SIGMA_1}",
+        as_corrected=f"sigma_1 = {ours:.3f}",
+        statement=(
+            f"{len(sigma)} runs ({len(thresholds)} MRP switch thresholds, {len(steps)} step sizes "
+            f"and an adaptive integrator with quaternions) give sigma_1 between "
+            f"{sigma[:, 0].min():.4f} and {sigma[:, 0].max():.4f}; neither they nor their shadow "
+            f"sets come closer to {PRINTED_TABLE_8_SIGMA_1} than {closest:.4f}"
+        ),
+    )
+
+
+def nadir_frame_sign(config: Config, results: Path) -> Proof:
+    """[RnN](330 s): with the printed sign of entry (3,2) the matrix is no rotation."""
+    section = config["mars"]
+    lmo = parameters(section).lmo
+    time = float(section["answer_times_s"]["reference_frames"])
+    correct = np.array(nadir_frame(lmo, time))
+    printed = correct.copy()
+    printed[2, 1] *= -1.0
+    by_equation_25 = np.sin(lmo.inclination) * np.cos(lmo.raan)
+    before, after = _orthogonality_defect(printed), _orthogonality_defect(correct)
+    return Proof(
+        holds=bool(
+            before > 0.1 and after < ORTHOGONAL and np.isclose(correct[2, 1], by_equation_25)
+        ),
+        as_printed=f"entry (3,2) = {printed[2, 1]:.4f}: R R' differs from 1 by {before:.2f}",
+        as_corrected=f"entry (3,2) = {correct[2, 1]:.4f}: R R' differs from 1 by {after:.0e}",
+        statement=(
+            f"Eq. 25 makes the entry sin i cos Omega = {by_equation_25:+.4f}; with the other sign "
+            f"the third row is not normal to the others (largest entry of R R' - 1: {before:.2f})"
+        ),
+    )
+
+
+def kinetic_energy_half(config: Config, results: Path) -> Proof:
+    """T = w' I w lacks the factor 1/2 that the printed value contains."""
+    section = config["mars"]
+    given = parameters(section)
+    time = section["answer_times_s"]["no_torque"]
+    rate = _row(document_runs(section, given)["no torque"], time, "no_torque")[4:7]
+    correct = kinetic_energy(given.inertia, rate)
+    printed = float(rate @ (given.inertia * rate))
+    half_unit = 0.5e-5
+    return Proof(
+        holds=abs(correct - PRINTED_ENERGY) <= half_unit < abs(printed - PRINTED_ENERGY),
+        as_printed=f"w' I w = {printed:.5f} J",
+        as_corrected=f"w' I w / 2 = {correct:.5f} J",
+        statement=(
+            f"The formula as printed gives {printed:.5f} J, with the factor 1/2 {correct:.5f} J; "
+            f"the value printed beside it is {PRINTED_ENERGY} J"
+        ),
+    )
+
+
+def attitude_matrix_factor(config: Config, results: Path) -> Proof:
+    """The printed [BN] of an MRP set lacks (1 - sigma^2) on its second term."""
+    section = config["mars"]
+    given = parameters(section)
+    time = section["answer_times_s"]["no_torque"]
+    row = _row(document_runs(section, given)["no torque"], time, "no_torque")
+    sigma, rate = row[1:4], row[4:7]
+    tilde = np.cross(np.eye(3), -sigma)
+    printed = np.eye(3) + (8 * tilde @ tilde - 4 * tilde) / (1 + sigma @ sigma) ** 2
+    correct = np.array(mrp_to_dcm(sigma))
+    momentum = np.array(angular_momentum(given.inertia, rate))
+    start = np.array(angular_momentum(given.inertia, given.initial_state[3:]))
+    conserved = np.linalg.norm(np.array(mrp_to_dcm(given.initial_state[:3])).T @ start)
+    before, after = _orthogonality_defect(printed), _orthogonality_defect(correct)
+    return Proof(
+        holds=before > 1e-3 and after < ORTHOGONAL,
+        as_printed=f"H = {_text(printed.T @ momentum)} kg m^2/s; [BN] is no rotation",
+        as_corrected=f"H = {_text(correct.T @ momentum)} kg m^2/s",
+        statement=(
+            f"[BN] [BN]' differs from 1 by {before:.2f} as printed and by {after:.0e} with the "
+            f"factor; the printed formula gives |H| = {np.linalg.norm(printed.T @ momentum):.4f}, "
+            f"although |H| = {conserved:.4f} kg m^2/s is conserved"
+        ),
+    )
+
+
+def gmo_frame_roots(config: Config, results: Path) -> Proof:
+    """Eqs. 30 and 31 divide by squared lengths: the rows are not of length one."""
+    section = config["mars"]
+    given = parameters(section)
+    time = float(section["answer_times_s"]["reference_frames"])
+    a, b, c = np.subtract(position(given.gmo, time), position(given.lmo, time)) / KM
+    rows = np.array([[-a, -b, -c], [b, -a, 0.0], [-a * c, -b * c, a * a + b * b]])
+    flat, full = a * a + b * b, a * a + b * b + c * c
+    squared = np.array([full, flat, flat * full])[:, None]
+    printed, correct = rows / squared, rows / np.sqrt(squared)
+    by_definition = np.array(gmo_frame(given.lmo, given.gmo, time))
+    lengths = np.linalg.norm(printed, axis=1)
+    return Proof(
+        holds=bool(
+            np.all(np.abs(lengths - 1) > 0.5)
+            and np.allclose(correct, by_definition, rtol=0, atol=ORTHOGONAL)
+        ),
+        as_printed=f"rows of length {', '.join(f'{length:.1e}' for length in lengths)} (km)",
+        as_corrected="rows of length 1, equal to Eq. 28",
+        statement=(
+            f"As printed the rows have lengths between {lengths.min():.1e} and "
+            f"{lengths.max():.1e}; with square roots of the denominators the matrix equals Eq. 28 "
+            f"to {np.max(np.abs(correct - by_definition)):.0e}, and the printed [RcN] follows"
+        ),
+    )
+
+
+def gain_name(config: Config, results: Path) -> Proof:
+    """The summary's "K = 1/6" is P: with it as K the damping requirement is missed."""
+    section = config["mars"]
+    given = parameters(section)
+    wrong = damping_ratios(given.inertia, Gains(k=given.gains.p, p=given.gains.p)).max()
+    right = damping_ratios(given.inertia, given.gains).max()
+    required = section["requirements"]["largest_damping_ratio"]
+    return Proof(
+        holds=bool(np.isclose(right, required) and not np.isclose(wrong, required)),
+        as_printed=f"K = {given.gains.p:.4f}: largest damping ratio {wrong:.2f}",
+        as_corrected=f"K = {given.gains.k:.4f}, P = {given.gains.p:.4f}: largest ratio {right:.2f}",
+        statement=(
+            f"Eq. 36 gives a largest damping ratio of {wrong:.3f} with K = {given.gains.p:.4f} and "
+            f"of {right:.3f} with K = {given.gains.k:.5f}; required is {required:g}"
+        ),
+    )
+
+
+def gain_fraction(config: Config, results: Path) -> Proof:
+    """The intermediate fraction (1/36)/(3/5) is not the printed result 1/180; (1/36)/5 is."""
+    section = config["mars"]
+    given = parameters(section)
+    inertia, required = given.inertia.min(), section["requirements"]["largest_damping_ratio"]
+    # The numerator is P^2; the printed denominator reads 3/5.
+    printed = given.gains.p**2 / (3.0 / 5.0)
+    correct = given.gains.p**2 / (required**2 * inertia)
+    return Proof(
+        holds=bool(np.isclose(correct, given.gains.k) and not np.isclose(printed, given.gains.k)),
+        as_printed=f"{printed:.5f}",
+        as_corrected=f"{correct:.5f}",
+        statement=(
+            f"P^2 over 3/5 is {printed:.5f}; P^2 over the smallest inertia {inertia:g} kg m^2 is "
+            f"{correct:.5f} N m, the K that is used; the 3 may be a slip of the transcription"
+        ),
+    )
+
+
+def latitude_angle_start(config: Config, results: Path) -> Proof:
+    """theta(t) = rate t omits theta(t0): without it the verified position does not come out."""
+    section = config["mars"]
+    lmo = parameters(section).lmo
+    time = float(section["answer_times_s"]["position_lmo"])
+    correct = np.array(position(lmo, time)) / KM
+    printed = np.array(position(lmo._replace(latitude_angle=0.0), time)) / KM
+    target = np.array(PRINTED_POSITION_450)
+    half_unit = 0.05
+    return Proof(
+        holds=bool(
+            np.all(np.abs(correct - target) <= half_unit)
+            and np.any(np.abs(printed - target) > half_unit)
+        ),
+        as_printed=f"r = {_text(printed, 1)} km",
+        as_corrected=f"r = {_text(correct, 1)} km",
+        statement=(
+            f"Without the initial angle the position at {time:g} s is "
+            f"{np.linalg.norm(printed - target):.0f} km from the printed one, with it the printed "
+            f"digits come out"
+        ),
+    )
+
+
+def visibility_overlap(config: Config, results: Path) -> Proof:
+    """Table 1's footnotes call the mothercraft visible and not visible at exactly the limit."""
+    section = config["mars"]
+    given = parameters(section)
+    limit = section["visibility_deg"]
+    angles = np.array([limit - 1.0, limit, limit + 1.0])
+    visible, hidden = (
+        literal(f"table-1-footnote/{name}-lmo-gmo-angular-separation")
+        for name in ("visible", "not-visible")
+    )
+    as_printed = _meets(angles, visible).astype(int) + _meets(angles, hidden)
+    corrected = _meets(angles, visible).astype(int) + (angles > limit)
+    day = read_table(results / "day.parquet")
+    times = day["time_s"].to_numpy()[:: max(1, len(day) // 20000)]
+    lmo, gmo = (
+        np.array([orbit_frame(orbit, t)[0] for t in times]) for orbit in (given.lmo, given.gmo)
+    )
+    separation = np.degrees(np.arccos(np.clip(np.sum(lmo * gmo, axis=1), -1.0, 1.0)))
+    closest = np.min(np.abs(separation - limit))
+    return Proof(
+        holds=bool(np.any(as_printed != 1) and np.all(corrected == 1)),
+        as_printed=f"{as_printed[1]} modes apply at {limit:g} deg",
+        as_corrected=f"{corrected[1]} mode applies: not visible is > {limit:g} deg",
+        statement=(
+            f"At {limit:g} deg both printed conditions, {visible} and {hidden}, hold; with > in "
+            f"the second exactly one holds at every angle. Nothing follows for the results: of "
+            f"{len(times)} times over the Mars day the closest to the limit is {closest:.1e} deg "
+            f"from it"
+        ),
+    )
+
+
+def second_rate_panel(config: Config, results: Path) -> Proof:
+    """Listings A.H plot omega_1 in the panel of omega_2 (Figs. 4 and 5)."""
+    runs = read_table(results / "trajectories.parquet")
+    apart = {
+        name: float((group["omega_1"] - group["omega_2"]).abs().max())
+        for name, group in runs.groupby("run")
+        if name in ("no torque", "fixed torque")
+    }
+    if not np.isfinite(list(apart.values())).all():
+        raise LookupError("a run overflowed")
+    return Proof(
+        holds=min(apart.values()) > 1e-3,
+        as_printed="second panel of omega: omega_1",
+        as_corrected="second panel of omega: omega_2",
+        statement=(
+            f"omega_1 and omega_2 differ by up to {apart['no torque']:.3f} rad/s without torque "
+            f"and {apart['fixed torque']:.3f} rad/s under the fixed torque, so one cannot stand "
+            f"for the other; our panels draw omega_2"
+        ),
+    )
+
+
+def reference_rate_frame(config: Config, results: Path) -> Proof:
+    """Figs. 7, 8 and 10 compare the body rate with the reference's rate in inertial components."""
+    given = parameters(config["mars"])
+    last = read_table(results / "trajectories.parquet").query("run == 'nadir'").iloc[-1]
+    body_rate, reference_rate = (
+        last[[f"{name}_{axis}" for axis in "123"]].to_numpy(dtype=float)
+        for name in ("omega", "omega_ref")
+    )
+    if not np.isfinite(body_rate).all():
+        raise LookupError("the run 'nadir' overflowed")
+    inertial = np.array(nadir_frame_rate(given.lmo, float(last["time_s"])))
+    apart, correct = (float(np.linalg.norm(body_rate - one)) for one in (inertial, reference_rate))
+    return Proof(
+        holds=apart > 0.1 * given.lmo.rate > 10.0 * correct,
+        as_printed=f"omega_R/N = {_text(1e6 * inertial, 0)}e-6 rad/s, inertial components",
+        as_corrected=f"omega_R/N = {_text(1e6 * reference_rate, 0)}e-6 rad/s, body components",
+        statement=(
+            f"At the end of the nadir run the body rate is {_text(1e6 * body_rate, 0)}e-6 rad/s: "
+            f"{apart:.1e} from the reference's rate in inertial components, which the listings "
+            f"plot beside it, and {correct:.1e} from it in body components, which our figures show"
+        ),
+    )
+
+
+def day_length(config: Config, results: Path) -> Proof:
+    """The commented-out 90000 s is no Mars day; 88620 s is the mothercraft's period."""
+    period = 2.0 * np.pi / config["mars"]["orbits"]["gmo"]["rate_rad_s"]
+    return Proof(
+        holds=bool(abs(period - MARS_DAY) < 0.5 < abs(period - LISTED_DAY)),
+        as_printed=f"{LISTED_DAY:.0f} s",
+        as_corrected=f"{MARS_DAY:.0f} s",
+        statement=(
+            f"The areosynchronous rate of Table 2 makes a period of {period:.2f} s: the text's "
+            f"{MARS_DAY:.0f} s, not the listing's {LISTED_DAY:.0f} s"
+        ),
+    )
+
+
+def switch_thresholds(config: Config, results: Path) -> Proof:
+    """The tasks' different MRP switch thresholds change no attitude."""
+    section = config["mars"]
+    given = parameters(section)
+    step, difference = section["step_s"], section["frame_difference_s"]["control"]
+    thresholds = sorted(set(section["mrp_switch"].values()))
+    durations = section["durations_s"]
+    commands = [(mode, durations["response"]) for mode in POINTING_RUNS.values()]
+    commands.append((AUTOMATIC, durations["mission"]))
+    worst = 0.0
+    for command, duration in commands:
+        records = [run(given, command, duration, step, difference, one) for one in thresholds]
+        if not all(map(finite, records)):
+            raise LookupError("a run overflowed")
+        attitudes = [Rotation.from_mrp(record[:, 1:4].copy()) for record in records]
+        angles = [(attitudes[0].inv() * other).magnitude().max() for other in attitudes[1:]]
+        worst = max([worst, *(float(angle) for angle in angles)])
+    return Proof(
+        holds=len(thresholds) > 1 and worst < 1e-6,
+        as_printed=f"thresholds {', '.join(f'{one:g}' for one in thresholds)}",
+        as_corrected="any one of them",
+        statement=(
+            f"All {len(thresholds)} thresholds give the same attitudes in the three pointing runs "
+            f"and the mission, to {worst:.1e} rad: an inconsistency without effect"
+        ),
+    )
+
+
+def tracking_rate_formula(config: Config, results: Path) -> Proof:
+    """Section VIII.A subtracts the body rate from itself: Table 3 does not follow."""
+    section = config["mars"]
+    state = parameters(section).initial_state
+    _, correct = tracking_error(state[:3], state[3:], SUN_FRAME, SUN_FRAME_RATE)
+    body = np.array(mrp_to_dcm(state[:3]))
+    printed = state[3:] - state[3:] - body @ np.array(SUN_FRAME_RATE)
+    table = np.array([float(literal(f"table-3/omega-b-r-t0/sun-pointing/{i}")) for i in (1, 2, 3)])
+    fits, fails = (np.abs(one - table) <= HALF_OF_4_DECIMALS for one in (correct, printed))
+    return Proof(
+        holds=bool(fits.all() and not fails.any()),
+        as_printed=f"omega_B/R = {_text(printed, 4)} rad/s (Sun)",
+        as_corrected=f"omega_B/R = {_text(np.array(correct), 4)} rad/s (Sun)",
+        statement=(
+            f"As printed the rate relative to the resting Sun frame vanishes; without the repeated "
+            f"term it is {_text(np.array(correct), 4)} rad/s, and Table 3 prints "
+            f"{_text(table, 4)}; the repetition may be "
+            f"a slip of the transcription"
+        ),
+    )
+
+
+def _meets(angles: np.ndarray, condition: str) -> np.ndarray:
+    """Whether angles meet a printed condition such as ``<= 35``."""
+    sign, limit = condition.split()
+    compare = {"<=": np.less_equal, ">=": np.greater_equal, ">": np.greater, "<": np.less}[sign]
+    return compare(angles, float(limit))
+
+
+def _row(record: np.ndarray, time: float, key: str) -> np.ndarray:
+    """The row of a run at a time; a LookupError where the run overflowed."""
+    if not finite(record):
+        raise LookupError("the run overflowed")
+    return row_at(record, time, key)
+
+
+def _orthogonality_defect(matrix: np.ndarray) -> float:
+    return float(np.max(np.abs(matrix @ matrix.T - np.eye(3))))
+
+
+def _text(vector: np.ndarray, decimals: int = 3) -> str:
+    return f"({', '.join(f'{value:.{decimals}f}' for value in vector)})"

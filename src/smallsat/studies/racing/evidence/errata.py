@@ -1,0 +1,340 @@
+"""Proofs of the errata: each recomputes a quantity as printed and as corrected, and can fail.
+
+The signature is that of `smallsat.evidence.errata.ProofFunction`: the whole configuration and the
+folder with the study's results.
+"""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from scipy.linalg import expm
+from scipy.stats import chi2
+
+from smallsat.config import Config
+from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
+from smallsat.evidence.errata import Proof
+from smallsat.evidence.printed import parse_printed
+from smallsat.results import read_table
+from smallsat.studies.racing.methods import as_published
+from smallsat.studies.racing.methods.flight import fly_segment
+from smallsat.studies.racing.methods.races import INDIRECT
+from smallsat.studies.racing.methods.recovery import start_positions
+from smallsat.studies.racing.model.course import generate
+from smallsat.studies.racing.model.matlab_random import MatlabStream
+from smallsat.studies.racing.model.shooting import (
+    AXIS_BY_AXIS,
+    NORM_OF_AXES,
+    costate_matrix,
+    thrust_components,
+)
+from smallsat.studies.racing.parameters import Parameters, parameters
+
+# Printed literals that a proof confronts with what is computed.
+PRINTED_VARIANCE = 250.0  # m^2, Section I
+PRINTED_MULTIPLE = 5.0  # comment in Listing C.B
+PRINTED_Y = {"scenario-1": "-480.5", "scenario-2": "-1696"}  # m, Tables 1 and 3
+PRINTED_DIGIT = 0.05  # m, half a unit of the printed positions
+PROBABLE = 0.01
+SECONDS = 90.0
+CONSTANT, DRIFTING = 1e-9, 1e-3
+# A primer vector with a component below the deadzone.
+PRIMER = np.array([2.0, 0.5, -3.0])
+# Singular values below this share of the largest count as zero.
+RANK = 1e-5
+FINE = 64
+
+
+def _seeds(config: Config) -> dict[str, int]:
+    return {name: values["seed"] for name, values in config["racing"]["scenarios"].items()}
+
+
+def _matched(given: Parameters, config: Config, variance: float) -> tuple[int, int, float]:
+    """How many x and z a variance gives to the digit, of how many, and the largest error."""
+    changed = replace(given, scatter=float(np.sqrt(variance)))
+    errors = []
+    for scenario, race in given.races.items():
+        _, places = start_positions(changed, _seeds(config)[scenario], len(race.cubesats))
+        printed = np.array([cubesat.position for cubesat in race.cubesats])
+        errors.append(np.abs(places - printed)[:, [0, 2]])
+    every = np.concatenate(errors).ravel()
+    return int((every <= PRINTED_DIGIT).sum()), len(every), float(every.max())
+
+
+def scatter_probability(given: Parameters, variance: float) -> float:
+    """Two-sided probability of the printed scatter around the known start of Scenario 1."""
+    race = given.races["scenario-1"]
+    offsets = np.array([c.position - race.course.start for c in race.cubesats])[:, [0, 2]]
+    total = float(np.sum(offsets**2)) / variance
+    below = float(chi2.cdf(total, offsets.size))
+    return 2.0 * min(below, 1.0 - below)
+
+
+def start_covariance(config: Config, results: Path) -> Proof:
+    """250 m^2: the draws of the stream against the printed positions, and their scatter."""
+    given = parameters(config["racing"])
+    right = given.scatter**2
+    fits, of, error = _matched(given, config, right)
+    misfits, _, wrong = _matched(given, config, PRINTED_VARIANCE)
+    probability = scatter_probability(given, PRINTED_VARIANCE)
+    return Proof(
+        holds=bool(fits >= of - 1 and misfits < of // 2 and probability < PROBABLE),
+        as_printed=f"{misfits} of {of} coordinates, off by up to {wrong:.1f} m",
+        as_corrected=f"{fits} of {of} to the printed digit, the rest within {error:.2f} m",
+        statement=(
+            f"the normal draws after the courses' in the streams of both seeds give {fits} of "
+            f"{of} printed x and z to the digit with a variance of {right:.2f} m^2, and {misfits} "
+            f"with "
+            f"{PRINTED_VARIANCE:g} m^2; without the streams, the scatter of Table 1 around the "
+            f"known "
+            f"start has a probability of {probability:.2g} under the printed variance and "
+            f"{scatter_probability(given, right):.2g} under the other"
+        ),
+    )
+
+
+def start_ring_comment(config: Config, results: Path) -> Proof:
+    """The multiple of 5: the same draws, with the comment's number."""
+    given = parameters(config["racing"])
+    used = config["racing"]["start"]["axis_multiple"]
+    right = given.scatter**2
+    fits, of, _ = _matched(given, config, right)
+    misfits, _, wrong = _matched(given, config, right * PRINTED_MULTIPLE / used)
+    return Proof(
+        holds=bool(fits >= of - 1 and misfits < of // 2),
+        as_printed=f"{misfits} of {of} coordinates, off by up to {wrong:.1f} m",
+        as_corrected=f"{fits} of {of} coordinates",
+        statement=(
+            f"with {PRINTED_MULTIPLE:g} times the largest axis the draws give {misfits} of {of} "
+            f"printed coordinates, with {used:g} times {fits}"
+        ),
+    )
+
+
+def angle_steps(config: Config, results: Path) -> Proof:
+    """Whole ranges of the angles: the start of both courses along the track."""
+    given = parameters(config["racing"])
+    texts, fits, misfits = [], [], []
+    for scenario, seed in _seeds(config).items():
+        halved = generate(MatlabStream(seed), given.ranges).start[1]
+        whole = generate(MatlabStream(seed), given.ranges, halved=False).start[1]
+        printed = parse_printed(PRINTED_Y[scenario])
+        assert printed is not None, PRINTED_Y[scenario]
+        fits.append(printed.matches(halved))
+        misfits.append(not printed.matches(whole))
+        texts.append((f"{whole:.1f}", f"{halved:.1f}", PRINTED_Y[scenario]))
+    return Proof(
+        holds=bool(all(fits) and all(misfits)),
+        as_printed=", ".join(text[0] for text in texts) + " m",
+        as_corrected=", ".join(text[1] for text in texts) + " m",
+        statement=(
+            f"the start's y is printed as {' and '.join(text[2] for text in texts)} m; the halved "
+            f"ranges give {' and '.join(text[1] for text in texts)} m, the whole ones "
+            f"{' and '.join(text[0] for text in texts)} m"
+        ),
+    )
+
+
+def hamiltonian_drift(config: Config, transposed: bool) -> tuple[float, float]:
+    """Hamiltonian at both ends of a flight from Meeny's start with the listing's guess."""
+    given = parameters(config["racing"])
+    race = given.races["scenario-1"]
+    cubesat = next(c for c in race.cubesats if c.name == "Meeny")
+    state = np.r_[cubesat.position, np.zeros(3)]
+    target = as_published.Target(
+        race.course.centres[0], race.course.normals[0], 0.0, race.course.start, False
+    )
+    guess, _ = as_published.guess(state, target, cubesat.thrust, given.as_published)
+    _, flown = fly_segment(
+        state, guess[:6], SECONDS, cubesat, given.mean_motion, 1.0, 1e-12, transposed
+    )
+    a = rate_matrix(given.mean_motion)
+    first, last = (
+        float(y[6:] @ (a @ y[:6]) - cubesat.thrust * np.linalg.norm(y[9:])) for y in flown[[0, -1]]
+    )
+    return first, last
+
+
+def costate_transpose(config: Config, results: Path) -> Proof:
+    """Listing C.F: the Hamiltonian of a flight with either matrix."""
+    first, last = hamiltonian_drift(config, transposed=False)
+    right_first, right_last = hamiltonian_drift(config, transposed=True)
+    drift, rest = abs(last - first), abs(right_last - right_first)
+    return Proof(
+        holds=bool(drift > DRIFTING * abs(first) and rest < CONSTANT * abs(right_first)),
+        as_printed=f"H from {first:.4f} to {last:.4f} in {SECONDS:g} s",
+        as_corrected=f"H constant to {max(rest, 1e-15):.0e}",
+        statement=(
+            f"flown for {SECONDS:g} s from the listing's guess, the Hamiltonian goes from "
+            f"{first:.4f} to {last:.4f} with the printed matrix and stays within "
+            f"{max(rest, 1e-15):.0e} with the transposed one, as Section II.B.5 says it must"
+        ),
+    )
+
+
+def printed_adjoint_transition(n: float, t: float) -> np.ndarray:
+    """Eq. 18 as printed."""
+    s, c = np.sin(n * t), np.cos(n * t)
+    return np.array(
+        [
+            [4 - 3 * c, 6 * (n * t - s), 0, -3 * n * s, 6 * n * (c - 1), 0],
+            [0, 1, 0, 0, 0, 0],
+            [0, 0, c, 0, 0, n * s],
+            [-s / n, 2 / n * (c - 1), 0, c, 2 * s, 0],
+            [2 / n * (1 - c), -s / n, 0, -2 * s, 4 * c - 3, 0],
+            [0, 0, -s / n, 0, 0, c],
+        ]
+    )
+
+
+def adjoint_transition(config: Config, results: Path) -> Proof:
+    """Eq. 18 against the matrix exponential of Eq. 17, entry by entry."""
+    n, t = parameters(config["racing"]).mean_motion, 10.0 * SECONDS
+    exact = expm(costate_matrix(n) * t)
+    printed = printed_adjoint_transition(n, t)
+    # Rows and columns in units in which a time is measured by the orbit.
+    scale = np.repeat([1.0, n], 3)
+    error = np.abs((printed - exact) * scale[:, None] / scale)
+    wrong = [(int(i) + 1, int(j) + 1) for i, j in np.argwhere(error > 1e-9)]
+    mended = 3.0 * t - 4.0 / n * np.sin(n * t)
+    right = abs(mended - exact[4, 1]) < 1e-9 * abs(exact[4, 1])
+    return Proof(
+        holds=bool(wrong == [(5, 2)] and right),
+        as_printed=f"{printed[4, 1]:.3f} s after {t:g} s",
+        as_corrected=f"{mended:.3f} s",
+        statement=(
+            f"of the 36 entries after {t:g} s the matrix exponential differs in "
+            f"{len(wrong)}, {wrong}: it has {exact[4, 1]:.3f} where the print gives "
+            f"{printed[4, 1]:.3f} and the correction {mended:.3f}"
+        ),
+    )
+
+
+def ring_size(config: Config, results: Path) -> Proof:
+    """The least entry of S, for every ring of Scenario 1."""
+    course = parameters(config["racing"]).races["scenario-1"].course
+    least = [float(np.min(np.diag(axes))) for axes in course.semi_axes]
+    return Proof(
+        holds=bool(max(least) == 0.0 and course.sizes.min() > 0.0),
+        as_printed="0 m for every ring",
+        as_corrected=f"{course.sizes.min():.2f} to {course.sizes.max():.2f} m",
+        statement=(
+            f"for all {course.rings} rings the least entry of diag(a, b) is 0, while the smaller "
+            f"axes are {course.sizes.min():.2f} to {course.sizes.max():.2f} m: by the listing no "
+            f"point but the centre is inside. The listing that builds S is not printed; it is "
+            f"taken "
+            f"as Section I defines it"
+        ),
+    )
+
+
+def axial_thrust(config: Config, results: Path) -> Proof:
+    """Eq. 24, the listings' law and the minimiser at one primer vector."""
+    given = parameters(config["racing"])
+    axial = [c for c in given.races["scenario-1"].cubesats if c.axis_thrust]
+    if not axial:
+        raise LookupError("no CubeSat has axial thrusters")
+    mo = axial[0]
+    limits, deadzone = np.array(mo.axis_thrust), given.as_published.deadzone
+    equation = np.where(np.abs(PRIMER) > deadzone, -limits * np.sign(PRIMER), 0.0)
+    listing = np.array(thrust_components(PRIMER, NORM_OF_AXES, limits, deadzone))
+    best = np.array(thrust_components(PRIMER, AXIS_BY_AXIS, limits, deadzone))
+    exceeds = float((np.abs(listing) / limits).max())
+    return Proof(
+        holds=bool(
+            equation[1] == 0.0
+            and abs(listing[1]) > 0.0
+            and exceeds > 1.0
+            and PRIMER @ best < PRIMER @ equation
+        ),
+        as_printed=f"u = {_vector(equation)}, p.u = {PRIMER @ equation:.4f}",
+        as_corrected=f"code: {_vector(listing)}; minimiser: {_vector(best)}",
+        statement=(
+            f"for a primer of {_vector(PRIMER)} Eq. 24 gives {_vector(equation)} m/s^2, the code "
+            f"{_vector(listing)}, which has the axis that should be off and {exceeds:.2f} times "
+            f"the "
+            f"limit of another, and the minimiser over the limits of Table 1 {_vector(best)}; p.u "
+            f"is "
+            f"{PRIMER @ equation:.3f}, {PRIMER @ listing:.3f} and {PRIMER @ best:.3f}"
+        ),
+    )
+
+
+def _vector(values: np.ndarray) -> str:
+    return "(" + ", ".join(f"{value:.4g}" for value in values) + ")"
+
+
+def equality_ranks(config: Config, results: Path, transposed: bool) -> tuple[int, int, int]:
+    """Of the twelve equalities at a converged segment: rows that move, their rank, and of pointing.
+
+    The segment is Meeny's first by the indirect method, where all conditions hold.
+    """
+    segments = read_table(results / "optima-scenario-1-segments.csv")
+    row = segments[
+        (segments["solution"] == INDIRECT)
+        & (segments["cubesat"] == "Meeny")
+        & (segments["segment"] == 0)
+    ].iloc[0]
+    if not row["converged"]:
+        raise LookupError("no converged segment")
+    z = np.r_[row[["px", "py", "pz", "pvx", "pvy", "pvz"]].to_numpy(dtype=float), row["duration_s"]]
+    return ranks_at(parameters(config["racing"]), z, transposed)
+
+
+def ranks_at(given: Parameters, z: np.ndarray, transposed: bool) -> tuple[int, int, int]:
+    """Ranks of the equalities' Jacobian on Meeny's first segment, at any of its unknowns (7,)."""
+    race = given.races["scenario-1"]
+    cubesat = next(c for c in race.cubesats if c.name == "Meeny")
+    law, limits = as_published.law_of(cubesat)
+    settings = given.as_published
+    jacobian = np.empty((as_published.EQUALITIES, len(z)))
+    fixed = (
+        np.r_[cubesat.position, np.zeros(3)],
+        rate_matrix(given.mean_motion),
+        costate_matrix(given.mean_motion, transposed),
+        law,
+        limits,
+        (settings.deadzone, settings.constraint_deadzone),
+        settings.final_hamiltonian,
+        race.course.centres[0],
+        race.course.normals[0],
+        (0.0, settings.plane),
+        False,
+        # The Hamiltonian of the quadrature itself must not blur the ranks.
+        FINE * settings.panels,
+    )
+    for i, value in enumerate(z):
+        step = np.zeros(len(z))
+        step[i] = 1e-4 * abs(value)
+        above, below = (as_published._functions(z + s, *fixed) for s in (step, -step))
+        # Relative to each unknown, so that the rank does not hang on units.
+        jacobian[:, i] = (above - below)[1 : 1 + as_published.EQUALITIES] / 2e-4
+    moving = int((np.abs(jacobian).max(axis=1) > 0.0).sum())
+    ranks = []
+    for rows in (jacobian, jacobian[9:]):
+        values = np.linalg.svd(rows, compute_uv=False)
+        ranks.append(int((values > RANK * values[0]).sum()))
+    return moving, ranks[0], ranks[1]
+
+
+def redundant_equalities(config: Config, results: Path) -> Proof:
+    """Ranks of the equalities' Jacobian at a solution, with right costates and the listing's."""
+    moving, rank, pointing = equality_ranks(config, results, transposed=True)
+    _, slipped, _ = equality_ranks(config, results, transposed=False)
+    segments = read_table(results / "as-published-scenario-1-segments.csv")
+    share = float((~segments["converged"]).mean())
+    return Proof(
+        holds=bool(moving <= 5 and rank == 3 and pointing == 2 and slipped == 4),
+        as_printed="12 equalities",
+        as_corrected=f"{rank} independent ones",
+        statement=(
+            f"at a converged segment only {moving} of the twelve rows depend on the unknowns at "
+            f"all, "
+            f"the three rows of pointing have rank {pointing}, and all together rank {rank}: two "
+            f"of "
+            f"direction, and H = -1, which the length of the costates can always meet. With the "
+            f"listing's costates H0 = Hf is no identity but a condition of its own, rank "
+            f"{slipped}. In "
+            f"our elastic solve of the listing {100 * share:.0f} % of the segments end unconverged"
+        ),
+    )

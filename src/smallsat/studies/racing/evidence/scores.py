@@ -1,0 +1,67 @@
+"""Who won, by how much, and who missed which ring: tables for a reader."""
+
+import pandas as pd
+
+from smallsat.studies.racing.evidence.printed import PRINTED
+from smallsat.studies.racing.methods.races import SOLUTIONS
+
+SCENARIO_NAMES = {"scenario-1": "Scenario 1", "scenario-2": "Scenario 2"}
+
+
+def printed_table() -> pd.DataFrame:
+    """The printed scores, in the columns of the races."""
+    return pd.DataFrame(
+        [
+            {
+                "scenario": scenario,
+                "cubesat": cubesat,
+                "solution": "printed",
+                "cost": cost,
+                "time_s": time,
+                "accuracy_m": accuracy,
+            }
+            for (scenario, cubesat), (cost, time, accuracy, _) in PRINTED.items()
+        ]
+    )
+
+
+def score_table(races: pd.DataFrame) -> pd.DataFrame:
+    """Every score by race and solution: place, cost, how far behind the winner, rings missed.
+
+    Solutions that did not converge somewhere say where; they take part all the same.
+    """
+    kept = ["scenario", "cubesat", "solution", "cost", "time_s", "accuracy_m", "missed"]
+    columns = [*kept, "off_axis", "not_converged", "segments"]
+    table = pd.concat([printed_table(), races[columns]], ignore_index=True)
+    order = {name: place for place, name in enumerate(("printed", *SOLUTIONS))}
+    table["order"] = table["solution"].map(order)
+    group = table.groupby(["scenario", "solution"])["cost"]
+    table["behind"] = table["cost"] - group.transform("min")
+    # Who has no score has no place.
+    table["place"] = group.rank().astype("Int64")
+    table = table.sort_values(["scenario", "order", "place"], ignore_index=True)
+    # What the document does not say of its rings stays open.
+    for name in ("missed", "off_axis", "not_converged"):
+        known = table[name].notna()
+        table[name] = [f"{v:.0f}" if ok else "" for v, ok in zip(table[name], known, strict=True)]
+    return table[[*kept, "behind", "place", "off_axis", "not_converged"]]
+
+
+def missed_table(rings: pd.DataFrame) -> pd.DataFrame:
+    """The rings that each CubeSat missed, by number, for every kind of solution."""
+    rows = []
+    groups = rings.groupby(["scenario", "solution", "cubesat"], sort=False)
+    for (scenario, solution, cubesat), crossed in groups:
+        missed = crossed.loc[crossed["missed"], "ring"]
+        off = crossed.loc[crossed["off_axis"] & ~crossed["missed"], "ring"]
+        rows.append(
+            {
+                "race": SCENARIO_NAMES[str(scenario)],
+                "solution": solution,
+                "cubesat": cubesat,
+                "missed": ", ".join(map(str, missed)) or "none",
+                "inside_but_off_the_normal": ", ".join(map(str, off)) or "none",
+                "largest_miss_m": crossed["miss_m"].max(),
+            }
+        )
+    return pd.DataFrame(rows)

@@ -1,0 +1,384 @@
+"""Minimum time through rings as one nonlinear program with a phase a segment.
+
+The control is held over equal pieces of a segment, and a piece is flown in closed form, so that the
+program's trajectory is exact and any integrator can fly it anew. A ring is crossed at its centre
+along its normal by construction: the state there is the centre, and the normal times a speed, which
+is a variable. Units are scaled: lengths by the power of ten below the longest way, 100 m on the
+document's courses, times by sqrt(length / thrust).
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Literal
+
+import casadi as ca
+import numpy as np
+
+from smallsat.dynamics.orbits.clohessy_wiltshire import held_input_rows, transition, transition_rows
+from smallsat.optimal_control.nonlinear_program import IpoptSolver, NonlinearProgram, Solution
+from smallsat.studies.racing.model.cubesat import CubeSat
+
+# Lowest ring speed, scaled: the direction of a velocity of zero is undefined.
+LEAST_SPEED = 1e-3
+# Segments last between these, in units of the time of free acceleration over their length.
+SHORTEST, LONGEST = 1e-4, 20.0
+# Squared norm of a scaled control: of a ball, and of a box, where it is never reached.
+BALL, BOX = 1.0, 4.0
+GUESS_THRUST = 0.9
+
+
+def length_unit(places: np.ndarray, speed: float = 0.0, thrust: float = 1.0) -> float:
+    """Power of ten below the longest way of a leg, m.
+
+    That is the largest distance between neighbours of its places (k, 3), m, or the way in which a
+    thrust, m/s^2, brings a speed, m/s, to rest: who comes fast to a near ring has far to go.
+    """
+    gaps = np.linalg.norm(np.diff(places, axis=0), axis=1)
+    return float(10.0 ** np.floor(np.log10(max(gaps.max(), speed**2 / (2.0 * thrust)))))
+
+
+Finish = Literal["ring", "state", "rest anywhere"]
+
+
+@dataclass(frozen=True)
+class Leg:
+    """What is to be flown: from a state through rings to a finish. SI units.
+
+    Attributes
+    ----------
+    position, velocity
+        At the start, (3,).
+    centres, normals
+        Of the rings to cross, (l, 3).
+    end_position, end_velocity
+        Where to finish, (3,); of a finish "rest anywhere" only the position is used, as a guess.
+    """
+
+    position: np.ndarray
+    velocity: np.ndarray
+    centres: np.ndarray
+    normals: np.ndarray
+    end_position: np.ndarray
+    end_velocity: np.ndarray
+
+
+@dataclass(frozen=True)
+class Arcs:
+    """A first guess: ring speeds and durations over a distance of 1, scaled; numbers or arrays."""
+
+    speed: Any = 0.6
+    time: Any = 2.2
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A solution in SI units.
+
+    Attributes
+    ----------
+    durations
+        Of the segments (m,), s.
+    starts
+        State at the start of each segment (m, 6).
+    controls
+        Held accelerations (m, N, 3), m/s^2.
+    costates
+        At the start of each segment (m, 6): the rate of the least time with the state there, s/m
+        and s/(m/s).
+    final
+        State at the end (6,).
+    solution
+        What the solver says.
+    tried
+        The ways to it that were tried, in order, where there were several.
+    """
+
+    durations: np.ndarray
+    starts: np.ndarray
+    controls: np.ndarray
+    costates: np.ndarray
+    final: np.ndarray
+    solution: Solution
+    tried: tuple[str, ...] = ()
+
+    @property
+    def time(self) -> float:
+        """Total time, s."""
+        return float(self.durations.sum())
+
+    @property
+    def converged(self) -> bool:
+        """Whether the solver says so."""
+        return self.solution.converged
+
+    @property
+    def ends(self) -> np.ndarray:
+        """State at the end of each segment (m, 6)."""
+        return np.vstack([self.starts[1:], self.final])
+
+
+class CourseProgram:
+    """The program for a number of rings, with the course and the CubeSat as parameters.
+
+    Parameters
+    ----------
+    rings
+        Number of rings to cross.
+    finish
+        ``ring``: the last ring is the finish. ``state``: a segment more, to a given state, such as
+        rest at the end ring. ``rest anywhere``: a segment more, to rest at a free place.
+    intervals
+        Held controls in a segment.
+    """
+
+    def __init__(self, rings: int, finish: Finish, intervals: int):
+        self.rings, self.finish, self.intervals = rings, finish, intervals
+        self.segments = rings + (finish != "ring")
+
+    def solve(
+        self,
+        leg: Leg,
+        cubesat: CubeSat,
+        mean_motion: float,
+        guess: Plan | None = None,
+        arcs: Arcs | None = None,
+    ) -> Plan:
+        """Solve for a leg; without a guess from smooth arcs through the ring centres.
+
+        A CubeSat with thrust limits axis by axis is solved within the ball inside its box first.
+        """
+        limits = np.array(cubesat.axis_thrust) if cubesat.axis_thrust else None
+        if limits is not None and guess is None:
+            guess = self._solve(leg, np.full(3, limits.min()), BALL, mean_motion, None, arcs)
+        if limits is not None:
+            return self._solve(leg, limits, BOX, mean_motion, guess, arcs)
+        return self._solve(leg, np.full(3, cubesat.thrust), BALL, mean_motion, guess, arcs)
+
+    def refine(self, leg: Leg, cubesat: CubeSat, mean_motion: float, coarser: Plan) -> Plan:
+        """Solve for a leg from the optimum of a coarser mesh, close to this one's."""
+        box = cubesat.axis_thrust
+        limits = np.array(box) if box else np.full(3, cubesat.thrust)
+        bound = BOX if box else BALL
+        return self._solve(leg, limits, bound, mean_motion, coarser, None, self._refining_solver)
+
+    def _solve(
+        self,
+        leg: Leg,
+        limits: np.ndarray,
+        bound: float,
+        mean_motion: float,
+        guess: Plan | None,
+        arcs: Arcs | None,
+        solver: IpoptSolver | None = None,
+    ) -> Plan:
+        thrust = float(limits.max())
+        places = np.vstack([leg.position, leg.centres, leg.end_position])[: self.segments + 1]
+        speed = max(float(np.linalg.norm(v)) for v in (leg.velocity, leg.end_velocity))
+        unit = _Units(thrust, mean_motion, length_unit(places, speed, thrust))
+        scaled = unit.leg(leg)
+        parameters = np.concatenate(
+            [
+                scaled.position,
+                scaled.velocity,
+                scaled.centres.ravel(),
+                scaled.normals.ravel(),
+                scaled.end_position,
+                scaled.end_velocity,
+                limits / thrust,
+                [unit.mean_motion, bound],
+            ]
+        )
+        durations, speeds, controls, inner, final = (
+            self._smooth(scaled, arcs or Arcs())
+            if guess is None
+            else self._restart(guess, scaled, limits, unit)
+        )
+        slack = np.maximum(bound - np.sum(controls**2, axis=2), 0.0)
+        free = final if self.finish == "rest anywhere" else np.empty(0)
+        parts = (durations, speeds, controls, inner, slack, free)
+        variables = np.concatenate([np.ravel(part) for part in parts])
+        solution = (solver or self._solver).solve(variables, parameters.tolist())
+        return self._plan(solution, scaled, limits, unit)
+
+    @cached_property
+    def _solver(self) -> IpoptSolver:
+        return self._ipopt(mu_strategy="adaptive")
+
+    @cached_property
+    def _refining_solver(self) -> IpoptSolver:
+        # Close to the optimum a large barrier, or a push away from the bounds, leads away from it.
+        return self._ipopt(mu_strategy="monotone", mu_init=1e-6, warm_start_init_point="yes")
+
+    def _ipopt(self, **barrier: Any) -> IpoptSolver:
+        return IpoptSolver(
+            self._program, expand=True, tol=1e-9, max_iter=150, linear_solver="mumps", **barrier
+        )
+
+    @cached_property
+    def _program(self) -> NonlinearProgram:
+        m, n, rings = self.segments, self.intervals, self.rings
+        speeds, times = ca.MX.sym("speed", rings), ca.MX.sym("T", m)
+        inner, controls = ca.MX.sym("X", 6, m * (n - 1)), ca.MX.sym("U", 3, m * n)
+        slack = ca.MX.sym("slack", m * n)
+        free = ca.MX.sym("r_f", 3 if self.finish == "rest anywhere" else 0)
+        start, centres, normals = (
+            ca.MX.sym("x0", 6),
+            ca.MX.sym("c", 3, rings),
+            ca.MX.sym("n", 3, rings),
+        )
+        end, limits = ca.MX.sym("x_f", 6), ca.MX.sym("u_max", 3)
+        mean_motion, bound = ca.MX.sym("omega"), ca.MX.sym("b")
+
+        flow = _flow(n).map(m * n)
+        nodes: list[Any] = [start]
+        nodes += [ca.vertcat(centres[:, k], speeds[k] * normals[:, k]) for k in range(rings)]
+        if self.finish == "state":
+            nodes.append(end)
+        elif self.finish == "rest anywhere":
+            nodes.append(ca.vertcat(free, ca.MX.zeros(3)))
+        before, after = [], []
+        for k in range(m):
+            own = inner[:, k * (n - 1) : (k + 1) * (n - 1)]
+            before += [nodes[k], own]
+            after += [own, nodes[k + 1]]
+        lengths = ca.vec(ca.repmat(times.T, n, 1)).T
+        applied = controls * ca.repmat(limits, 1, m * n)
+        gaps = flow(
+            ca.horzcat(*before), applied, lengths, ca.repmat(mean_motion, 1, m * n)
+        ) - ca.horzcat(*after)
+        ball = ca.sum1(controls**2).T + slack - bound
+        variables = ca.vertcat(times, speeds, ca.vec(controls), ca.vec(inner), slack, free)
+        low = np.concatenate(
+            [
+                np.full(m, SHORTEST),
+                np.full(rings, LEAST_SPEED),
+                np.full(3 * m * n, -1.0),
+                np.full(6 * m * (n - 1), -np.inf),
+                np.zeros(m * n),
+                np.full(free.numel(), -np.inf),
+            ]
+        )
+        high = np.concatenate(
+            [
+                np.full(m, LONGEST),
+                np.full(rings, np.inf),
+                np.ones(3 * m * n),
+                np.full(6 * m * (n - 1) + m * n + free.numel(), np.inf),
+            ]
+        )
+        parameters = ca.vertcat(
+            start, ca.vec(centres), ca.vec(normals), end, limits, mean_motion, bound
+        )
+        return NonlinearProgram(
+            variables, ca.sum1(times), ca.vertcat(ca.vec(gaps), ball), low, high, parameters
+        )
+
+    def _smooth(self, leg: Leg, arcs: Arcs) -> tuple[np.ndarray, ...]:
+        """Cubic arcs through the ring centres along their normals; their controls are clipped."""
+        targets = np.vstack([leg.centres, leg.end_position])[: self.segments]
+        before = np.vstack([leg.position, targets[:-1]])
+        gaps = np.linalg.norm(targets - before, axis=1)
+        speeds = arcs.speed * np.sqrt(gaps[: self.rings])
+        velocities = np.vstack([speeds[:, None] * leg.normals[: self.rings], leg.end_velocity])
+        after = velocities[: self.segments]
+        start = np.vstack([leg.velocity, after[:-1]])
+        durations = arcs.time * np.sqrt(gaps)
+        s = np.arange(self.intervals + 1) / self.intervals
+        middle = 0.5 * (s[1:] + s[:-1])
+        t = durations[:, None, None]
+        values = (before, start * durations[:, None], targets, after * durations[:, None])
+        place, rate, _ = _hermite(s[None, 1:-1, None], *(v[:, None] for v in values))
+        *_, bend = _hermite(middle[None, :, None], *(v[:, None] for v in values))
+        controls = bend / t**2
+        size = np.linalg.norm(controls, axis=2, keepdims=True)
+        controls *= GUESS_THRUST / np.maximum(size, GUESS_THRUST)
+        inner = np.concatenate([place, rate / t], axis=2)
+        return durations, speeds, controls, inner, leg.end_position
+
+    def _restart(
+        self, plan: Plan, leg: Leg, limits: np.ndarray, unit: "_Units"
+    ) -> tuple[np.ndarray, ...]:
+        """A known plan as a guess, its controls held over shorter pieces where there are more."""
+        old = plan.controls.shape[1]
+        picked = (np.arange(self.intervals) * old) // self.intervals
+        controls = plan.controls[:, picked] / limits
+        durations = plan.durations / unit.time
+        inner = np.empty((self.segments, self.intervals - 1, 6))
+        flow = _flow(self.intervals)
+        for k in range(self.segments):
+            x = unit.state(plan.starts[k])
+            for i in range(self.intervals - 1):
+                x = flow(x, controls[k, i] * limits / limits.max(), durations[k], unit.mean_motion)
+                inner[k, i] = x.full().ravel()
+        speeds = np.linalg.norm(unit.state(plan.ends)[: self.rings, 3:], axis=1)
+        return durations, speeds, controls, inner, unit.state(plan.final)[:3]
+
+    def _plan(self, solution: Solution, leg: Leg, limits: np.ndarray, unit: "_Units") -> Plan:
+        m, n, rings = self.segments, self.intervals, self.rings
+        z = solution.variables
+        durations, speeds = z[:m], z[m : m + rings]
+        controls = z[m + rings : m + rings + 3 * m * n].reshape(m, n, 3)
+        nodes = np.column_stack([leg.centres, speeds[:, None] * leg.normals])
+        starts = np.vstack([np.r_[leg.position, leg.velocity], nodes])[:m]
+        if self.finish == "ring":
+            final = nodes[-1]
+        elif self.finish == "state":
+            final = np.r_[leg.end_position, leg.end_velocity]
+        else:
+            final = np.r_[z[-3:], np.zeros(3)]
+        assert solution.multipliers is not None
+        # The multiplier of a gap is the costate at the end of its piece.
+        ends = solution.multipliers[: 6 * m * n].reshape(m, n, 6)[:, 0]
+        costates = np.array(
+            [transition(unit.mean_motion, durations[k] / n).T @ ends[k] for k in range(m)]
+        )
+        return Plan(
+            durations=durations * unit.time,
+            starts=starts * unit.states,
+            controls=controls * limits,
+            costates=costates * unit.time / unit.states,
+            final=final * unit.states,
+            solution=solution,
+        )
+
+
+def _hermite(s, a, da, b, db):
+    """Cubic between values with given slopes: value, first and second derivative by s."""
+    c2, c3 = 3.0 * (b - a) - 2.0 * da - db, 2.0 * (a - b) + da + db
+    return a + s * (da + s * (c2 + s * c3)), da + s * (2 * c2 + 3 * s * c3), 2 * c2 + 6 * s * c3
+
+
+def _flow(intervals: int) -> ca.Function:
+    """State after a piece of a segment: (x, u, duration of the segment, mean motion)."""
+    x, u = ca.SX.sym("x", 6), ca.SX.sym("u", 3)
+    duration, mean_motion = ca.SX.sym("T"), ca.SX.sym("n")
+    h = duration / intervals
+    free, forced = (
+        ca.vertcat(*(ca.horzcat(*row) for row in rows(mean_motion, h, ca)))
+        for rows in (transition_rows, held_input_rows)
+    )
+    return ca.Function("flow", [x, u, duration, mean_motion], [free @ x + forced @ u])
+
+
+class _Units:
+    """Scaling by a length and the thrust."""
+
+    def __init__(self, thrust: float, mean_motion: float, length: float):
+        self.length = length
+        self.time = float(np.sqrt(length / thrust))
+        self.mean_motion = mean_motion * self.time
+        self.states = np.repeat([length, length / self.time], 3)
+
+    def state(self, state: np.ndarray) -> np.ndarray:
+        return state / self.states
+
+    def leg(self, leg: Leg) -> Leg:
+        speed = self.length / self.time
+        return Leg(
+            leg.position / self.length,
+            leg.velocity / speed,
+            leg.centres / self.length,
+            leg.normals,
+            leg.end_position / self.length,
+            leg.end_velocity / speed,
+        )

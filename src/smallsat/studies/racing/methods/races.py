@@ -1,0 +1,512 @@
+"""The races: both scenarios, by every kind of solution, as tidy tables."""
+
+import time
+from dataclasses import dataclass, field, replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from smallsat.config import Config
+from smallsat.evidence.not_converged import NotConverged
+from smallsat.studies.racing.methods import as_published, attempts, indirect
+from smallsat.studies.racing.methods.course_program import (
+    LEAST_SPEED,
+    CourseProgram,
+    Leg,
+    Plan,
+    length_unit,
+)
+from smallsat.studies.racing.methods.flight import (
+    COSTATE,
+    RING,
+    STATE,
+    THRUST,
+    fly_plan,
+    fly_segment,
+    minimum_cost,
+    plan_table,
+    residual,
+    ring_rows,
+    segment_table,
+)
+from smallsat.studies.racing.model.course import Course
+from smallsat.studies.racing.model.cubesat import CubeSat
+from smallsat.studies.racing.parameters import Parameters
+
+AS_PUBLISHED = "as published"
+GREEDY = "segment by segment"
+INDIRECT = "segment by segment, indirect"
+WHOLE = "whole course"
+ANYWHERE = "whole course, rest anywhere"
+SOLUTIONS = (AS_PUBLISHED, GREEDY, INDIRECT, WHOLE, ANYWHERE)
+# The start positions lie in a plane.
+ALONG_TRACK_VARIANCE = 0.0
+# Where the indirect method fails, it starts anew from a mesh so many times finer.
+FINER = 4
+# Of the least ring speed: below this a solution counts as held by it.
+SLOW = 1.01
+REST = np.zeros(3)
+KEY = ["scenario", "cubesat", "solution"]
+
+
+@dataclass
+class Tables:
+    """Rows of the tables that a kind of solution fills; `frames` makes tables of them."""
+
+    races: list[dict[str, Any]] = field(default_factory=list)
+    rings: list[dict[str, Any]] = field(default_factory=list)
+    segments: list[dict[str, Any]] = field(default_factory=list)
+    trajectories: list[pd.DataFrame] = field(default_factory=list)
+    seconds: list[dict[str, Any]] = field(default_factory=list)
+    not_converged: list[NotConverged] = field(default_factory=list)
+
+    def frames(self) -> dict[str, pd.DataFrame]:
+        """The tables by name, the seconds apart."""
+        return {
+            "races": pd.DataFrame(self.races),
+            # Where no race was solved there are no rings, but the table has its columns.
+            "rings": pd.DataFrame(self.rings, columns=[*KEY, *RING]),
+            "segments": pd.DataFrame(self.segments),
+            "seconds": pd.DataFrame(self.seconds),
+        }
+
+    def trajectory(self) -> pd.DataFrame:
+        """All trajectories in one table."""
+        if not self.trajectories:
+            return pd.DataFrame(columns=[*KEY, "segment", "time_s", *STATE, *THRUST, *COSTATE])
+        return pd.concat(self.trajectories, ignore_index=True)
+
+
+@cache
+def program(rings: int, finish: Any, intervals: int) -> CourseProgram:
+    """One program for a number of rings, built once."""
+    return CourseProgram(rings, finish, intervals)
+
+
+def whole_leg(course: Course, cubesat: CubeSat) -> Leg:
+    """The race of a CubeSat from its place at the start to rest at the end ring."""
+    return Leg(cubesat.position, REST, course.centres, course.normals, course.end, REST)
+
+
+def segment_name(course: Course, k: int) -> str:
+    """Name of a segment, as in the captions: ``3 to 4``."""
+    return f"{k} to {k + 1 if k < course.rings else 'end'}"
+
+
+def fly_optima(given: Parameters, section: Config, scenario: str) -> Tables:
+    """Every CubeSat of a scenario by the three well-posed kinds of solution."""
+    tables = Tables()
+    race = given.races[scenario]
+    numerics = section["optimum"]
+    for cubesat in race.cubesats:
+        key = {"scenario": scenario, "cubesat": cubesat.name}
+        for name, finish in ((WHOLE, "state"), (ANYWHERE, "rest anywhere")):
+            solver = program(race.course.rings, finish, numerics["intervals"])
+            leg = whole_leg(race.course, cubesat)
+            plan = attempts.solve(solver, leg, cubesat, given.mean_motion)
+            _add_plan(tables, key | {"solution": name}, plan, given, race.course, cubesat)
+            tables.seconds.append(key | {"solution": name, "seconds": plan.solution.seconds})
+        began = time.perf_counter()
+        plans = greedy(race.course, cubesat, given.mean_motion, numerics["intervals"])
+        greedy_seconds = time.perf_counter() - began
+        joined = join(plans)
+        _add_plan(tables, key | {"solution": GREEDY}, joined, given, race.course, cubesat, plans)
+        tables.seconds.append(key | {"solution": GREEDY, "seconds": greedy_seconds})
+        if not cubesat.axis_thrust:
+            began = time.perf_counter()
+            if joined.converged:
+                _add_extremals(tables, key, plans, given, section, race.course, cubesat)
+            else:
+                _without_start(tables, key | {"solution": INDIRECT}, race.course)
+            seconds = time.perf_counter() - began
+            tables.seconds.append(key | {"solution": INDIRECT, "seconds": seconds})
+    return tables
+
+
+def greedy(course: Course, cubesat: CubeSat, mean_motion: float, intervals: int) -> list[Plan]:
+    """Each segment in least time by itself, from where the last one ended.
+
+    Ends with the first segment that does not converge, as the next has nowhere to begin.
+    """
+    state = np.r_[cubesat.position, REST]
+    plans = []
+    for k in range(course.rings + 1):
+        solver, leg = _segment(course, k, state, intervals)
+        plans.append(attempts.solve(solver, leg, cubesat, mean_motion))
+        if not plans[-1].converged:
+            break
+        state = plans[-1].final
+    return plans
+
+
+def _segment(
+    course: Course, k: int, state: np.ndarray, intervals: int
+) -> tuple[CourseProgram, Leg]:
+    """The program and the leg of segment k from a state (6,)."""
+    final = k == course.rings
+    leg = Leg(
+        state[:3],
+        state[3:],
+        course.centres[k : k + 1],
+        course.normals[k : k + 1],
+        course.end,
+        REST,
+    )
+    return program(0 if final else 1, "state" if final else "ring", intervals), leg
+
+
+def join(plans: list[Plan]) -> Plan:
+    """Plans flown one after the other as one plan; its status is that of the worst."""
+    worst = next((plan for plan in plans if not plan.converged), plans[-1])
+    return Plan(
+        durations=np.concatenate([plan.durations for plan in plans]),
+        starts=np.vstack([plan.starts for plan in plans]),
+        controls=np.concatenate([plan.controls for plan in plans]),
+        costates=np.vstack([plan.costates for plan in plans]),
+        final=plans[-1].final,
+        solution=worst.solution,
+        tried=worst.tried,
+    )
+
+
+def _add_plan(
+    tables: Tables,
+    key: dict[str, Any],
+    plan: Plan,
+    given: Parameters,
+    course: Course,
+    cubesat: CubeSat,
+    plans: list[Plan] | None = None,
+) -> None:
+    """A race in all tables; one that was not solved as missing, and where it was not."""
+    if not plan.converged:
+        where = "" if plans is None else f", segment {segment_name(course, len(plans) - 1)}"
+        last = plan if plans is None else plans[-1]
+        tables.not_converged.append(
+            attempts.not_converged(case_name(key) + where, last, cubesat, given.mean_motion)
+        )
+        solved = len(plans) - 1 if plans else 0
+        _add_missing(tables, key, course, solved, last.solution.status)
+        return
+    flown = fly_plan(plan, given.mean_motion)
+    arrivals = np.cumsum(plan.durations)
+    rows = ring_rows(course, flown[:, -1], arrivals, given.plane, given.pointing)
+    failed = [segment_name(course, k) for k, one in enumerate(plans or [plan]) if not one.converged]
+    tables.races.append(
+        key
+        | _totals(
+            course,
+            rows,
+            failed,
+            minimum_cost(flown[:, 0], course, cubesat.thrust),
+            plan.time,
+            plan.solution.iterations,
+            residual=residual(plan, flown, cubesat, course),
+        )
+    )
+    tables.rings += [key | row for row in rows]
+    tables.segments += [
+        key
+        | {
+            "segment": k,
+            "name": segment_name(course, k),
+            "duration_s": float(plan.durations[k]),
+            "converged": (plans[k] if plans else plan).converged,
+            "status": (plans[k] if plans else plan).solution.status,
+            **dict(zip(COSTATE, plan.costates[k].tolist(), strict=True)),
+        }
+        for k in range(course.rings + 1)
+    ]
+    table = plan_table(plan, given.mean_motion)
+    for place, (name, value) in enumerate(key.items()):
+        table.insert(place, name, value)
+    tables.trajectories.append(table)
+
+
+def case_name(key: dict[str, Any]) -> str:
+    """What was to be solved, in the words of `NotConverged`."""
+    return ", ".join(key.values())
+
+
+def _add_missing(
+    tables: Tables, key: dict[str, Any], course: Course, solved: int, status: str
+) -> None:
+    """A race without a solution: no numbers but how many of its segments were not solved."""
+    names = [segment_name(course, k) for k in range(solved, course.rings + 1)]
+    tables.races.append(key | _unsolved(course, names))
+    tables.segments += [
+        key
+        | {
+            "segment": k,
+            "name": segment_name(course, k),
+            "duration_s": np.nan,
+            "converged": False,
+            "status": "without the others" if k < solved else status,
+            **dict.fromkeys(COSTATE, np.nan),
+        }
+        for k in range(course.rings + 1)
+    ]
+
+
+def _unsolved(course: Course, names: list[str]) -> dict[str, Any]:
+    """What a race without a solution has in its row: which of its segments were not solved."""
+    return dict.fromkeys(_TOTALS, np.nan) | {
+        "rings": course.rings,
+        "segments": course.rings + 1,
+        "not_converged": len(names),
+        "segments_not_converged": "; ".join(names),
+        "residual": np.nan,
+        "iterations": 0,
+    }
+
+
+def _without_start(tables: Tables, key: dict[str, Any], course: Course) -> None:
+    """The indirect method where the direct one, from whose plans it starts, found none."""
+    status = "no direct solution to start from"
+    tables.not_converged.append(NotConverged(case_name(key), status, tried="the direct method"))
+    _add_missing(tables, key, course, 0, status)
+
+
+_TOTALS = ["cost", "time_s", "accuracy_m", "minimum_cost_s", "missed", "off_axis"]
+
+
+def _add_extremals(
+    tables: Tables,
+    key: dict[str, Any],
+    plans: list[Plan],
+    given: Parameters,
+    section: Config,
+    course: Course,
+    cubesat: CubeSat,
+) -> None:
+    """The same segments by the indirect method, each from the start of the direct one."""
+    key = key | {"solution": INDIRECT}
+    rows, failed, total = [], [], 0.0
+    ends, starts = [], []
+    for k, plan in enumerate(plans):
+        found = _extremal(plan, course, k, given, section, cubesat)
+        intervals = section["optimum"]["intervals"]
+        if not found.converged:
+            intervals *= FINER
+            solver, leg = _segment(course, k, plan.starts[0], intervals)
+            finer = solver.refine(leg, cubesat, given.mean_motion, plan)
+            if finer.converged:
+                found = _extremal(finer, course, k, given, section, cubesat)
+        if not found.converged:
+            failed.append(segment_name(course, k))
+            tables.not_converged.append(
+                NotConverged(
+                    f"{case_name(key)}, segment {failed[-1]}",
+                    "no root",
+                    found.error,
+                    f"from costates of up to {intervals} pieces, with quadratures of "
+                    f"{_panels(section)[0]} to {_panels(section)[-1]} panels",
+                )
+            )
+        total += found.duration
+        starts.append(plan.starts[0])
+        ends.append(found.end)
+        rows.append(
+            key
+            | {
+                "segment": k,
+                "name": segment_name(course, k),
+                "duration_s": found.duration,
+                "converged": found.converged,
+                "status": "converged" if found.converged else f"error {found.error:.0e}",
+                **dict(zip(COSTATE, found.costate.tolist(), strict=True)),
+            }
+        )
+    tables.segments += rows
+    if failed:
+        tables.races.append(key | _unsolved(course, failed))
+        return
+    arrivals = np.cumsum([row["duration_s"] for row in rows])
+    passed = ring_rows(course, np.array(ends), arrivals, given.plane, given.pointing)
+    tables.rings += [key | row for row in passed]
+    tables.races.append(
+        key
+        | _totals(
+            course, passed, failed, minimum_cost(np.array(starts), course, cubesat.thrust), total, 0
+        )
+    )
+
+
+def _panels(section: Config) -> list[int]:
+    return [section["optimum"]["indirect_panels"] * 8**i for i in range(3)]
+
+
+def _extremal(
+    plan: Plan, course: Course, k: int, given: Parameters, section: Config, cubesat: CubeSat
+) -> indirect.Extremal:
+    """The indirect method from a plan of segment k, with ever finer quadratures."""
+    position = course.end if k == course.rings else course.centres[k]
+    # Where the direct solution crosses at the least speed allowed, the speed is not free.
+    before, speed = (float(np.linalg.norm(state[3:])) for state in (plan.starts[0], plan.final))
+    length = length_unit(np.array([plan.starts[0, :3], position]), before, cubesat.thrust)
+    slowest = SLOW * LEAST_SPEED * np.sqrt(length * cubesat.thrust)
+    goal = indirect.Goal(
+        position,
+        course.normals[min(k, course.rings - 1)],
+        plan.final[3:] if speed < slowest else None,
+    )
+    for panels in _panels(section):
+        found = indirect.solve(
+            plan.starts[0],
+            goal,
+            cubesat.thrust,
+            given.mean_motion,
+            plan.costates[0],
+            plan.time,
+            panels,
+        )
+        if found.converged:
+            break
+    return found
+
+
+def fly_as_published(
+    given: Parameters,
+    tolerance: float,
+    scenario: str,
+    settings: as_published.Settings,
+    cubesats: tuple[str, ...] = (),
+) -> Tables:
+    """Every CubeSat of a scenario as the listings do it, or those named."""
+    tables = Tables()
+    race = given.races[scenario]
+    for cubesat in race.cubesats:
+        if not cubesats or cubesat.name in cubesats:
+            _fly_as_published(tables, given, tolerance, scenario, settings, race.course, cubesat)
+    return tables
+
+
+def _fly_as_published(
+    tables: Tables,
+    given: Parameters,
+    tolerance: float,
+    scenario: str,
+    settings: as_published.Settings,
+    course: Course,
+    cubesat: CubeSat,
+) -> None:
+    key = {"scenario": scenario, "cubesat": cubesat.name, "solution": AS_PUBLISHED}
+    state, began = np.r_[cubesat.position, REST], 0.0
+    previous = course.start
+    ends, starts, arrivals, costs, failed = [], [], [], [], []
+    solving, evaluations = 0.0, 0
+    for k in range(course.rings + 1):
+        final = k == course.rings
+        target = as_published.Target(
+            centre=course.end if final else course.centres[k],
+            normal=course.normals[min(k, course.rings - 1)],
+            size=0.0 if final else float(course.sizes[k]),
+            previous_centre=previous,
+            final=final,
+        )
+        clock = time.perf_counter()
+        solved = as_published.solve_segment(state, target, cubesat, given.mean_motion, settings)
+        solving += time.perf_counter() - clock
+        times, flown = fly_segment(
+            state,
+            solved.costate,
+            solved.duration,
+            cubesat,
+            given.mean_motion,
+            settings.deadzone,
+            tolerance,
+            settings.transposed,
+        )
+        tables.trajectories.append(
+            segment_table(k, began, times, flown, cubesat, settings.deadzone).assign(**key)
+        )
+        tables.segments.append(
+            key
+            | {
+                "segment": k,
+                "name": segment_name(course, k),
+                "duration_s": solved.duration,
+                "converged": solved.converged,
+                "status": solved.status,
+                **dict(zip(COSTATE, solved.costate.tolist(), strict=True)),
+            }
+        )
+        if not solved.converged:
+            failed.append(segment_name(course, k))
+        evaluations += solved.evaluations
+        starts.append(state)
+        state, began, previous = flown[-1, :6], began + solved.duration, target.centre
+        ends.append(state)
+        arrivals.append(began)
+        # The printed cost is the solver's; the flight's own miss is what we count.
+        miss = 0.0 if final else float(np.linalg.norm(state[:3] - target.centre))
+        costs.append(solved.duration + miss)
+    rows = ring_rows(course, np.array(ends), np.array(arrivals), given.plane, given.pointing)
+    tables.rings += [key | row for row in rows]
+    tables.races.append(
+        key
+        | _totals(
+            course,
+            rows,
+            failed,
+            minimum_cost(np.array(starts), course, cubesat.thrust),
+            began,
+            evaluations,
+            cost=sum(costs),
+        )
+    )
+    tables.seconds.append(key | {"seconds": solving})
+
+
+def variants(
+    given: Parameters, section: Config, scenario: str, cubesats: tuple[str, ...] = ()
+) -> pd.DataFrame:
+    """What the printed races become where one thing is done otherwise; all else as published."""
+    base = given.as_published
+    changes = {
+        "as published": base,
+        "rings have their smaller axis as size": replace(base, ring_sizes=True),
+        "costates mended": replace(base, transposed=True),
+        "both": replace(base, ring_sizes=True, transposed=True),
+    } | {
+        f"constraints weigh {weight:g} at first": replace(base, first_penalty=weight)
+        for weight in section["as_published"]["other_first_weights"]
+    }
+    tolerance = section["as_published"]["tolerance"]
+    parts = []
+    for name, settings in changes.items():
+        flown = fly_as_published(given, tolerance, scenario, settings, cubesats)
+        table = pd.DataFrame(flown.races)
+        table["solution"] = name
+        parts.append(table.rename(columns={"solution": "variant"}))
+    return pd.concat(parts, ignore_index=True)
+
+
+def _totals(
+    course: Course,
+    rows: list[dict[str, Any]],
+    failed: list[str],
+    least_cost: float,
+    time: float,
+    iterations: int,
+    cost: float | None = None,
+    residual: float = np.nan,
+) -> dict[str, Any]:
+    """A race in one row; its cost is time and misses, unless a solver printed another."""
+    accuracy = sum(row["miss_m"] for row in rows)
+    return {
+        "cost": time + accuracy if cost is None else cost,
+        "time_s": time,
+        "accuracy_m": accuracy,
+        "minimum_cost_s": least_cost,
+        "missed": sum(row["missed"] for row in rows),
+        "off_axis": sum(row["off_axis"] for row in rows),
+        "rings": course.rings,
+        "segments": course.rings + 1,
+        "not_converged": len(failed),
+        "segments_not_converged": "; ".join(failed),
+        "residual": residual,
+        "iterations": iterations,
+    }

@@ -1,0 +1,120 @@
+"""A segment flown from initial costates, compiled: the listing's dynamics (C.F), as is or mended.
+
+The costates obey a linear law of their own, the control follows from them, and the state is linear
+in the control. So a segment is a sum over the Gauss points of equal panels; nothing is integrated
+step by step. SI units.
+"""
+
+from math import sqrt
+
+import numpy as np
+
+from smallsat.dynamics.compiled import compiled
+from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
+
+GAUSS_POINTS = 4
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(GAUSS_POINTS)
+# Terms of the exponential series over a panel: a panel is short against the orbit.
+TERMS = 14
+# Laws of thrust: any direction at full thrust; along the primer with the norm of the active axes
+# (Listings C.C and C.F); each axis by itself (the minimiser over a box).
+DIRECTED, NORM_OF_AXES, AXIS_BY_AXIS = 0, 1, 2
+
+
+def costate_matrix(mean_motion: float, transposed: bool = True) -> np.ndarray:
+    """The matrix of ``dp/dt = M p``; untransposed in the velocity block as in Listing C.F."""
+    m = -rate_matrix(mean_motion).T
+    if not transposed:
+        m[3:, 3:] = m[3:, 3:].T
+    return m
+
+
+@compiled
+def exponential(a, t):
+    """``exp(a t)`` of a square matrix by its series, for short t."""
+    size = a.shape[0]
+    total, term = np.eye(size), np.eye(size)
+    for k in range(1, TERMS + 1):
+        term = term @ a * (t / k)
+        total += term
+    return total
+
+
+@compiled
+def thrust_components(primer, law, limits, deadzone):
+    """Acceleration that a law makes of a primer vector (3,), as three numbers.
+
+    ``limits`` are the accelerations of the axes; a directed thruster has the first one in every
+    direction.
+    """
+    if law == AXIS_BY_AXIS:
+        return (
+            -limits[0] * np.sign(primer[0]),
+            -limits[1] * np.sign(primer[1]),
+            -limits[2] * np.sign(primer[2]),
+        )
+    size = sqrt(primer[0] ** 2 + primer[1] ** 2 + primer[2] ** 2)
+    if size == 0.0:
+        return 0.0, 0.0, 0.0
+    thrust = limits[0]
+    if law == NORM_OF_AXES:
+        total = 0.0
+        for i in range(3):
+            if abs(primer[i]) > deadzone:
+                total += limits[i] ** 2
+        thrust = sqrt(total)
+    share = -thrust / size
+    return share * primer[0], share * primer[1], share * primer[2]
+
+
+@compiled
+def thrust_of(primer, law, limits, deadzone):
+    """The same as a vector (3,)."""
+    return np.array(thrust_components(primer, law, limits, deadzone))
+
+
+@compiled
+def end_of_segment(state, costate, duration, a, m, law, limits, deadzone, panels):
+    """State and costate (6,), (6,) at the end of a segment.
+
+    Parameters
+    ----------
+    state, costate : ndarray, shape (6,)
+        At the start.
+    duration : float
+        s.
+    a, m : ndarray, shape (6, 6)
+        Rate matrices of the state and of the costate.
+    law, limits, deadzone
+        See `thrust_of`.
+    panels : int
+        Equal panels of Gauss points.
+    """
+    h = duration / panels
+    step, costep = exponential(a, h), exponential(m, h)
+    reach = np.empty((GAUSS_POINTS, 6, 3))
+    primers = np.empty((GAUSS_POINTS, 3, 6))
+    for j in range(GAUSS_POINTS):
+        s = 0.5 * h * (1.0 + NODES[j])
+        reach[j] = exponential(a, h - s)[:, 3:] * (0.5 * h * WEIGHTS[j])
+        primers[j] = exponential(m, s)[3:]
+    # Plain loops: products of such small matrices cost more to call than to do.
+    x, p = state.copy(), costate.copy()
+    after, moved, primer = np.empty(6), np.empty(6), np.empty(3)
+    for _ in range(panels):
+        for i in range(6):
+            after[i] = moved[i] = 0.0
+            for k in range(6):
+                after[i] += step[i, k] * x[k]
+                moved[i] += costep[i, k] * p[k]
+        for j in range(GAUSS_POINTS):
+            for i in range(3):
+                primer[i] = 0.0
+                for k in range(6):
+                    primer[i] += primers[j, i, k] * p[k]
+            ux, uy, uz = thrust_components(primer, law, limits, deadzone)
+            for i in range(6):
+                after[i] += reach[j, i, 0] * ux + reach[j, i, 1] * uy + reach[j, i, 2] * uz
+        x[:] = after
+        p[:] = moved
+    return x, p

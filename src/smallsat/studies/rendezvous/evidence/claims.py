@@ -1,0 +1,450 @@
+"""Predicates of the document's prose claims of chapters 2 and 3.
+
+The signature is that of `smallsat.evidence.claims.Predicate`: the whole configuration and the
+folder with the study's results. What rests on undisclosed parameters is judged over the acceptable
+sets of the inference (``ensemble.csv``): it holds or fails where all of them agree, and is
+undecided where they do not.
+"""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from scipy.optimize import linprog
+
+from smallsat.config import Config
+from smallsat.evidence.claims import Judgement, Outcome, judged
+from smallsat.results import read_table
+from smallsat.studies.rendezvous.evidence.observations import FIRST_SECOND
+from smallsat.studies.rendezvous.evidence.printed import (
+    CASE_TABLES,
+    TOTAL,
+    phase_cells,
+    total_cells,
+    value,
+)
+from smallsat.studies.rendezvous.guidance.law import PHASES
+from smallsat.studies.rendezvous.inference.search import printed_steps
+from smallsat.studies.rendezvous.inference.summary import STRUCTURES, acceptable, identified
+from smallsat.studies.rendezvous.model.geometry import cone_faces, rotated
+from smallsat.studies.rendezvous.parameters import law, start_state
+from smallsat.studies.rendezvous.simulation.flights import CHANGE, STATE
+
+MUCH = 1.5  # "much longer": by half at least
+LITTLE = 0.1  # "comparable", "no significant amount": within a tenth
+SLIGHT_M = 1.0  # of a cone violation
+ZONE_SHARE = 0.01  # of r1, that a way between samples may cut off
+COAST_SHARE = 0.05  # of the bound: what counts as a control that is off
+NEAR_ZONE = 1.25  # of r1: on the way around the zone
+BETWEEN_SHARE, BETWEEN_M = 0.02, 0.02  # of a bound, and m, between samples
+TRUTH_DV = 0.05  # m/s that the nonlinear truth may change a phase by
+
+
+def _totals(results: Path) -> Any:
+    """Times, s, and delta-v of whole manoeuvres: a row a set, columns (quantity, case)."""
+    table = read_table(results / "ensemble.csv")
+    sums = table.groupby(["set", "case"])[["time_s", "delta_v_m_s"]].sum()
+    done = table.groupby(["set", "case"])["ended"].all()
+    return sums.where(done).unstack("case")
+
+
+def _over_sets(agree: Any, evidence: str) -> Judgement:
+    """Agreement of the acceptable sets that can say something; NaN where one cannot."""
+    known = agree.dropna().astype(bool)
+    text = f"{int(known.sum())} of {len(known)} acceptable parameter sets agree; {evidence}"
+    if len(known) == 0:
+        return Judgement("undecided", f"no acceptable set ends all the cases; {evidence}")
+    if known.all():
+        return Judgement("holds", text)
+    return Judgement("fails" if not known.any() else "undecided", text)
+
+
+def _compared(values: Any, condition: Any) -> Any:
+    return condition.where(values.notna().all(axis=1)).astype(object)
+
+
+def _range(series: Any, digits: int = 1) -> str:
+    return f"{series.min():.{digits}f} to {series.max():.{digits}f}"
+
+
+def six_thrusters_move_in_six_degrees(config: Config, results: Path) -> Judgement:
+    """Thrusters only push: for every force and torque they must span six dimensions positively."""
+    count = config["rendezvous"]["spacecraft"]["thrusters"]
+    random = np.random.default_rng(0)
+    reached = 0
+    trials = 200
+    for _ in range(trials):
+        wrenches = random.standard_normal((6, count))
+        # Positive spanning needs a positive combination that cancels.
+        found = linprog(np.zeros(count), A_eq=wrenches, b_eq=np.zeros(6), bounds=(1.0, None))
+        reached += found.status == 0
+    return judged(
+        reached > 0 and count > 6,
+        f"thrusters that only push need at least one more than the dimensions that they are to "
+        f"reach, seven for force and torque; of {trials} random arrangements of {count} none can "
+        f"cancel its own pushes ({reached} can). Six along the axes move the chaser in three "
+        f"degrees of freedom, which is what the guidance uses",
+    )
+
+
+def one_norm_is_sparser(config: Config, results: Path) -> Judgement:
+    """Shares of the far range's control components that are off."""
+    flights = read_table(results / "flights.parquet")
+    bound = config["rendezvous"]["phases"]["far"]["control_bound_m_s"]
+    far = flights[flights["phase"] == "far"]
+
+    def off(case: str) -> float:
+        changes = far[far["flight"] == case][CHANGE].to_numpy()
+        return float((np.abs(changes) < COAST_SHARE * bound).mean())
+
+    linear, quadratic, without = off("lp"), off("v-bar"), off("no-set-point")
+    sparser = [linear > quadratic, linear > without]
+    outcome: Outcome = "holds" if all(sparser) else "undecided" if any(sparser) else "fails"
+    return Judgement(
+        outcome,
+        f"of the far range's control components {100 * linear:.0f} % are off (below "
+        f"{100 * COAST_SHARE:.0f} % of the bound) with the LP, {100 * quadratic:.0f} % with the "
+        f"QP, {100 * without:.0f} % with the QP without set point",
+    )
+
+
+def _largest(results: Path, constraint: str, motions: str, *places: str, case: str = "") -> float:
+    """Largest violation of a constraint, over the cases (or one) and the motions of a kind."""
+    table = read_table(results / "constraints.csv")
+    own = table[(table["constraint"] == constraint) & table["motion"].str.contains(motions)]
+    own = own[own["flight"].str.contains(case)]
+    if own.empty or own[list(places)].isna().all(axis=None):
+        raise LookupError(f"no case comes to where the {constraint} binds")
+    return float(own[list(places)].max().max())
+
+
+def keep_out_zone_is_kept(config: Config, results: Path) -> Judgement:
+    """The deepest passage of the cases' far ranges, linear and nonlinear, between samples too."""
+    keep_out = law(config["rendezvous"], "v-bar").keep_out
+    linear = _largest(results, "keep out", "linear", "sample", "between")
+    impulses = _largest(results, "keep out", "impulses", "sample", "between")
+    burns = _largest(results, "keep out", "burns", "sample", "between")
+    worst = max(linear, impulses, burns)
+    return judged(
+        worst <= ZONE_SHARE * keep_out,
+        f"deepest inside the zone of {keep_out:.1f} m, looked at every second: {linear:.2f} m in "
+        f"the linear motion, {impulses:.2f} m in the nonlinear one, {burns:.2f} m with burns "
+        f"(negative: outside); the planes bind at samples only, and {100 * ZONE_SHARE:g} % of r1 "
+        f"is allowed",
+    )
+
+
+def cone_violated_slightly(config: Config, results: Path) -> Judgement:
+    """Largest distance outside the cone, m, at the samples of the three cases' mid ranges."""
+    by_case = {
+        case: _largest(results, "cone penalty", "linear", "sample", case=case)
+        for case in CASE_TABLES
+    }
+    text = ", ".join(f"{case}: {max(m, 0.0):.2f} m" for case, m in by_case.items())
+    worst = max(by_case.values())
+    return judged(
+        worst <= SLIGHT_M,
+        f"at the samples of the three cases' mid ranges the chaser is at most {worst:.2f} m "
+        f"outside the cone ({text}); slightly is read as at most {SLIGHT_M:g} m",
+    )
+
+
+def r_bar_takes_less(config: Config, results: Path) -> Judgement:
+    """Time and delta-v of Case 2 below those of Case 1."""
+    totals = _totals(results)
+    pairs = totals[[("time_s", "v-bar"), ("time_s", "r-bar")]]
+    time = totals[("time_s", "v-bar")] - totals[("time_s", "r-bar")]
+    fuel = totals[("delta_v_m_s", "v-bar")] - totals[("delta_v_m_s", "r-bar")]
+    return _over_sets(
+        _compared(pairs, (time > 0) & (fuel > 0)),
+        f"it saves {_range(time, 0)} s and {_range(fuel, 2)} m/s; printed are "
+        f"{_printed('v-bar', 'time_s') - _printed('r-bar', 'time_s'):.0f} s and "
+        f"{_printed('v-bar', 'delta_v_m_s') - _printed('r-bar', 'delta_v_m_s'):.2f} m/s",
+    )
+
+
+def _printed(case: str, quantity: str, phase: str = TOTAL) -> float:
+    cells = phase_cells().set_index(["case", "phase"])
+    return float(cells.loc[(case, phase), quantity])  # type: ignore[arg-type]
+
+
+def rotating_is_comparable(config: Config, results: Path) -> Judgement:
+    """Case 3's delta-v within a tenth of the interval between Cases 1 and 2."""
+    fuel = _totals(results)["delta_v_m_s"][["v-bar", "r-bar", "rotating"]]
+    low, high = fuel[["v-bar", "r-bar"]].min(axis=1), fuel[["v-bar", "r-bar"]].max(axis=1)
+    inside = (fuel["rotating"] >= (1 - LITTLE) * low) & (fuel["rotating"] <= (1 + LITTLE) * high)
+    return _over_sets(
+        _compared(fuel, inside),
+        f"Case 3 needs {_range(fuel['rotating'])} m/s, Cases 1 and 2 {_range(fuel['v-bar'])} and "
+        f"{_range(fuel['r-bar'])}; comparable is read as within a tenth of their interval",
+    )
+
+
+def difference_lies_close(config: Config, results: Path) -> Judgement:
+    """Where Case 3's delta-v differs most: printed, and with the acceptable sets."""
+    cells = phase_cells().set_index(["case", "phase"])["delta_v_m_s"].to_dict()
+    printed = {
+        other: {phase: cells["rotating", phase] - cells[other, phase] for phase in PHASES}
+        for other in ("v-bar", "r-bar")
+    }
+    table = read_table(results / "ensemble.csv")
+    fuel: Any = table.pivot(index="set", columns=["case", "phase"], values="delta_v_m_s")
+    agree = pd.Series(True, index=fuel.index)
+    for other in printed:
+        far = (fuel["rotating"]["far"] - fuel[other]["far"]).abs()
+        close = (
+            (fuel["rotating"][["mid", "final"]] - fuel[other][["mid", "final"]]).abs().sum(axis=1)
+        )
+        agree &= close > far
+    said = all(
+        abs(one["far"]) < max(abs(one["mid"]), abs(one["final"])) for one in printed.values()
+    )
+    text = "; ".join(
+        f"against Case {1 + list(printed).index(other)} "
+        + ", ".join(f"{phase} {one[phase]:+.2f}" for phase in PHASES)
+        for other, one in printed.items()
+    )
+    if not said:
+        return Judgement(
+            "fails",
+            f"by the printed tables themselves the largest difference to Case 1 lies in the far "
+            f"range (m/s, {text}); of the acceptable sets {int(agree.sum())} of {len(agree)} have "
+            f"the larger difference close to the target in both comparisons",
+        )
+    return _over_sets(agree.astype(object), f"printed: {text}")
+
+
+def rotation_adds_little(config: Config, results: Path) -> Judgement:
+    """Case 3 against Case 1, the same approach to a target at rest."""
+    fuel = _totals(results)["delta_v_m_s"][["v-bar", "rotating"]]
+    added = fuel["rotating"] - fuel["v-bar"]
+    return _over_sets(
+        _compared(fuel, added < LITTLE * fuel["v-bar"]),
+        f"the rotating target takes {_range(added, 2)} m/s more than Case 1; printed is "
+        f"{_printed('rotating', 'delta_v_m_s') - _printed('v-bar', 'delta_v_m_s'):+.2f} m/s. The "
+        f"rotation rate is inferred too, and other rates were not printed",
+    )
+
+
+def without_set_point_takes_longer(config: Config, results: Path) -> Judgement:
+    """By a factor of `MUCH` at least."""
+    time = _totals(results)["time_s"][["v-bar", "no-set-point"]]
+    factor = time["no-set-point"] / time["v-bar"]
+    cells = total_cells().set_index("case")["time_min"]
+    return _over_sets(
+        _compared(time, factor > MUCH),
+        f"it takes {_range(factor, 2)} times as long; printed is "
+        f"{cells['no-set-point'] / cells['v-bar']:.2f}",
+    )
+
+
+def guided_around_the_zone(config: Config, results: Path) -> Judgement:
+    """The angle that is flown near the zone, with and without set point."""
+    paths = read_table(results / "paths.parquet")
+    keep_out = law(config["rendezvous"], "v-bar").keep_out
+
+    def turned_near(case: str) -> float:
+        own = paths[(paths["flight"] == case) & (paths["phase"] == "far")]
+        near = own[np.hypot(own["x_m"], own["y_m"]) < NEAR_ZONE * keep_out]
+        angle = np.unwrap(np.arctan2(near["y_m"], near["x_m"]))
+        return float(np.degrees(np.ptp(angle))) if len(angle) else 0.0
+
+    without, with_point = turned_near("no-set-point"), turned_near("v-bar")
+    return judged(
+        without > 45.0,
+        f"within {NEAR_ZONE:g} r1 the chaser goes around by {without:.0f} deg without set point, "
+        f"and by {with_point:.0f} deg with it (inferred set)",
+    )
+
+
+def _way_around(flights: pd.DataFrame, case: str) -> tuple[float, bool]:
+    """Angle flown about the target in the orbit's plane, deg, and whether the cone was reached."""
+    own = flights[flights["flight"] == case]
+    angle = np.unwrap(np.arctan2(own["y_m"], own["x_m"]))
+    return float(np.degrees(angle[-1] - angle[0])), bool((own["phase"] == "mid").any())
+
+
+def lp_takes_another_way(config: Config, results: Path) -> Judgement:
+    """Directions about the target, of the far ranges."""
+    flights = read_table(results / "flights.parquet")
+    quadratic, _ = _way_around(flights, "v-bar")
+    linear, reached = _way_around(flights, "lp")
+    text = f"about the target the QP turns by {quadratic:+.0f} deg, the LP by {linear:+.0f} deg"
+    if not reached:
+        return Judgement("undecided", f"{text}, without reaching the cone with the weights at hand")
+    return judged(quadratic * linear < 0.0, text)
+
+
+def lp_saves_fuel(config: Config, results: Path) -> Judgement:
+    """Over the acceptable sets, with the LP weights of the configuration."""
+    totals = _totals(results)
+    fuel = totals["delta_v_m_s"].reindex(columns=["v-bar", "lp", "no-set-point"])
+    time = totals["time_s"].reindex(columns=["v-bar", "lp"])
+    agree = (fuel["lp"] < fuel["v-bar"]) & (time["lp"] > time["v-bar"])
+    cells = total_cells().set_index("case")["delta_v_m_s"]
+    variants = read_table(results / "lp-variants.csv")
+    docked = variants[variants["docked"]]
+    return _over_sets(
+        _compared(time, agree),
+        f"the LP needs {_range(fuel['lp'])} m/s, the QP {_range(fuel['v-bar'])}. The printed "
+        f"values ({cells['lp']:g} against {cells['v-bar']:g}) agree with it, but the QP without "
+        f"set point is printed with less than both ({cells['no-set-point']:g}). Of {len(variants)} "
+        f"sets of LP weights {len(docked)} reach the target",
+    )
+
+
+def totals_add_up(config: Config, results: Path) -> Judgement:
+    """Sums over the printed tables, to half a unit of each rounded term."""
+    cells = phase_cells()
+    worst = {}
+    for quantity in ("delta_v_m_s", "time_s"):
+        table = cells.pivot(index="case", columns="phase", values=quantity)
+        worst[quantity] = float((table[list(PHASES)].sum(axis=1) - table[TOTAL]).abs().max())
+    repeated = total_cells().set_index("case").loc["v-bar"]
+    minutes = abs(_printed("v-bar", "time_s") / 60.0 - repeated["time_min"])
+    same = repeated["delta_v_m_s"] == _printed("v-bar", "delta_v_m_s")
+    text = value("section-3-6-1/total-delta-v/case-1-v-bar") == repeated["delta_v_m_s"]
+    return judged(
+        bool(
+            worst["delta_v_m_s"] < 1e-9
+            and worst["time_s"] < 1e-9
+            and minutes < 0.005
+            and same
+            and text
+        ),
+        f"phases miss their totals by at most {worst['delta_v_m_s']:.0e} m/s and "
+        f"{worst['time_s']:.0e} s; Case 1's row of Table 3.6 differs by {minutes:.3f} min",
+    )
+
+
+def times_are_whole_samples(config: Config, results: Path) -> Judgement:
+    """The remainders of the printed times."""
+    section = config["rendezvous"]
+    cells = phase_cells()
+    cells = cells[cells["phase"].isin(PHASES)]
+    missing = {
+        (row["case"], row["phase"]): -row["time_s"]
+        % section["phases"][row["phase"]]["sample_time_s"]
+        for row in cells.to_dict("records")
+    }
+    expected = {key: FIRST_SECOND if key[1] == "far" else 0.0 for key in missing}
+    steps = printed_steps(section)
+    return judged(
+        missing == expected,
+        "steps of the far, mid and final phases: "
+        + "; ".join(
+            f"{case} " + ", ".join(str(steps[case, phase]) for phase in PHASES)
+            for case in CASE_TABLES
+        )
+        + ". The second missing in every far range reads as a clock that starts with the first "
+        "control, one simulation step late",
+    )
+
+
+def velocity_is_of_a_stable_ellipse(config: Config, results: Path) -> Judgement:
+    """Vx = n y / 2 and vy = -2 n x: an interval of the mean motion from each rounded component."""
+    x, y, _, vx, vy, _ = start_state(config["rendezvous"])
+    half = 0.005
+    from_x = sorted(2.0 * (vx + sign * half) / y for sign in (-1, 1))
+    from_y = sorted(-(vy + sign * half) / (2.0 * x) for sign in (-1, 1))
+    low, high = max(from_x[0], from_y[0]), min(from_x[1], from_y[1])
+    ours = config["rendezvous"]["inferred"]["mean_motion_rad_s"]
+    mu, radius = 398600.4418e9, 6378137.0
+    heights = [((mu / n**2) ** (1 / 3) - radius) / 1000.0 for n in (high, low)]
+    return judged(
+        bool(low < high and low <= ours <= high),
+        f"both components give the same mean motion within their rounding, {low:.6f} to {high:.6f} "
+        f"rad/s, a circular orbit {heights[0]:.0f} to {heights[1]:.0f} km high; we use {ours:.6f}",
+    )
+
+
+def delta_v_is_no_sum_of_plane_lengths(config: Config, results: Path) -> Judgement:
+    """Printed far ranges against what so many steps can give by the length of (x, y)."""
+    section = config["rendezvous"]
+    bound = section["phases"]["far"]["control_bound_m_s"]
+    steps = printed_steps(section)
+    most = {case: steps[case, "far"] * np.sqrt(2.0) * bound for case in CASE_TABLES}
+    printed = {case: _printed(case, "delta_v_m_s", "far") for case in CASE_TABLES}
+    over = [case for case in CASE_TABLES if printed[case] > most[case]]
+    table = read_table(results / "readings.csv")
+    sums = table[table["question"] == "delta_v"].set_index("reading")["misfit"]
+    return judged(
+        len(over) > 0,
+        "; ".join(
+            f"{case}: {printed[case]:.2f} printed, at most {most[case]:.2f} m/s"
+            for case in CASE_TABLES
+        )
+        + ". The way out of the plane adds little, so lengths are not what was summed. Of the sums "
+        f"tried, '{sums.idxmin()}' fits all cells best (misfit {sums.min():.1f}, '2-norm' "
+        f"{sums['2-norm']:.1f}): an inference",
+    )
+
+
+def truth_changes_no_step_count(config: Config, results: Path) -> Judgement:
+    """The cases flown anew in the nonlinear model, by impulses as the guidance assumes them."""
+    table = read_table(results / "truth.csv")
+    counts = {}
+    for model, own in table.groupby("model"):
+        changed = float((own["delta_v_m_s"] - own["delta_v_linear_m_s"]).abs().max())
+        counts[model] = (int((own["steps"] == own["steps_linear"]).sum()), len(own), changed)
+    same, phases, worst = counts["impulses"]
+    burnt, _, most = counts["burns"]
+    return judged(
+        same == phases and worst <= TRUTH_DV,
+        f"with impulses {same} of {phases} phases keep their number of steps, and delta-v changes "
+        f"by at most {worst:.1g} m/s in a phase; with burns of the printed thruster {burnt} of "
+        f"{phases} do, and delta-v changes by up to {most:.2g} m/s",
+    )
+
+
+def constraints_hold_between_samples(config: Config, results: Path) -> Judgement:
+    """Bounds at every sample; docking speed and cone between samples once nothing is softened."""
+    section = config["rendezvous"]
+    flights, paths = read_table(results / "flights.parquet"), read_table(results / "paths.parquet")
+    faces, axis = np.empty((4, 3)), np.empty(3)
+    control, speed, cone = 0.0, 0.0, 0.0
+    for case in CASE_TABLES:
+        given = law(section, case)
+        own = flights[flights["flight"] == case]
+        for place, phase in enumerate(PHASES):
+            changes = own[own["phase"] == phase][CHANGE].abs().to_numpy()
+            if not len(changes):
+                raise LookupError(f"{case} does not come to its {phase} phase")
+            control = max(control, float(changes.max()) / given.control_bounds[place])
+        # The first steps brake from the mid range's speed; the bound is softened there.
+        late = own[(own["phase"] == "final") & (own["softened"] > 0)]["time_s"]
+        start = float(late.max()) + given.sample_times[2] if len(late) else -np.inf
+        path = paths[(paths["flight"] == case) & (paths["phase"] == "final")]
+        path = path[path["time_s"] > start]
+        if path.empty:
+            raise LookupError(f"{case} keeps its constraints nowhere in the final phase")
+        speed = max(speed, float(path[STATE[3:]].abs().to_numpy().max()) / given.speed_bound)
+        for row in path[["time_s", *STATE[:3]]].to_numpy():
+            rotated(np.array(given.axis), given.rotation_rate * row[0], axis)
+            cone_faces(axis, np.tan(given.cone_angles[2]), faces)
+            cone = max(cone, float(np.max(faces @ (row[1:] - given.port * axis))))
+    return judged(
+        control <= 1.0 + 1e-6 and speed <= 1.0 + BETWEEN_SHARE and cone <= BETWEEN_M,
+        f"controls reach {100 * control:.4f} % of their bounds; once no constraint is softened any "
+        f"more, docking speeds reach {100 * speed:.1f} % of theirs between samples, and the chaser "
+        f"is at most {1000 * cone:.1f} mm outside the docking cone",
+    )
+
+
+def inference_is_underdetermined(config: Config, results: Path) -> Judgement:
+    """Parameters that the acceptable sets leave open."""
+    section = config["rendezvous"]
+    evaluated = read_table(results / "inference.parquet")
+    table = identified(section, evaluated)
+    sets = acceptable(section, evaluated)
+    fixed = table[table["verdict"] == "identified"]["parameter"].to_list()
+    loose = table[table["verdict"] == "loosely identified"]["parameter"].to_list()
+    cells = len(read_table(results / "residuals.csv"))
+    return judged(
+        len(fixed) < len(table),
+        f"{len(table)} numbers and {len(STRUCTURES)} readings for {cells} cells. Over {len(sets)} "
+        f"acceptable sets of {len(evaluated)} evaluated ones {', '.join(fixed) or 'none'} vary by "
+        f"a quarter of their bounds at most; {', '.join(loose) or 'none'} loosely; the others are "
+        f"free or coupled",
+    )

@@ -1,0 +1,293 @@
+"""Proofs of the errata: each recomputes a quantity as printed and as corrected, and can fail.
+
+The signature is that of `smallsat.evidence.errata.ProofFunction`: the whole configuration and the
+folder with the study's results.
+"""
+
+from pathlib import Path
+
+import numpy as np
+
+from smallsat.config import Config
+from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
+from smallsat.evidence.errata import Proof
+from smallsat.results import read_table
+from smallsat.studies.rendezvous.evidence.printed import CASE_TABLES
+from smallsat.studies.rendezvous.model.geometry import cone_faces, rotated
+from smallsat.studies.rendezvous.model.prediction import terminal_weight, transition
+from smallsat.studies.rendezvous.parameters import law, start_state
+
+# Printed literals that a proof confronts with what is computed.
+PRINTED_BOUNDS = {"far": 0.1786, "mid": 0.1786, "final": 0.0357}  # Table 3.1
+PRINTED_FAR_STEPS = 33  # Table 3.4: the fewest steps of a far range to a target at rest
+PRINTED_DISTANCE_KM = (1.7, 0.05)  # Section 3.6, and half a unit of its last digit
+PRINTED_THRUST_N = 1.0  # Chapter 1
+HALF_UNIT = 0.00005  # of the printed bounds
+
+ROUNDING = 1e-9
+
+
+def control_bound_unit(config: Config, results: Path) -> Proof:
+    """Table 3.1: the bounds are impulses over mass; as accelerations they would end too soon."""
+    section = config["rendezvous"]
+    craft = section["spacecraft"]
+    push = craft["thruster_N"] / craft["mass_kg"]
+    pulses = {phase: bound / push for phase, bound in PRINTED_BOUNDS.items()}
+    whole = all(
+        round(pulse) >= 1 and abs(push * round(pulse) - PRINTED_BOUNDS[phase]) <= HALF_UNIT
+        for phase, pulse in pulses.items()
+    )
+    # Rest to rest over the printed start distance along one axis at full control: 2 sqrt(d / a).
+    distance = float(np.linalg.norm(start_state(section)[:3]))
+    sample = section["phases"]["far"]["sample_time_s"]
+    steps = 2.0 * np.sqrt(distance / PRINTED_BOUNDS["far"]) / sample
+    impulse_steps = 2.0 * np.sqrt(distance * sample / PRINTED_BOUNDS["far"]) / sample
+    needed = PRINTED_BOUNDS["far"] / push
+    return Proof(
+        holds=bool(whole and needed > 1.0 and steps < PRINTED_FAR_STEPS / 2 < impulse_steps),
+        as_printed=f"{distance:.0f} m in {np.ceil(steps):.0f} far-range steps",
+        as_corrected=f"in {np.ceil(impulse_steps):.0f} steps; printed are {PRINTED_FAR_STEPS}",
+        statement=(
+            f"A thruster of {craft['thruster_N']:g} N gives {craft['mass_kg']:g} kg at most "
+            f"{push:.4f} m/s^2; the bounds are that times "
+            f"{', '.join(f'{pulses[p]:.2f}' for p in ('far', 'mid', 'final'))} s, whole seconds to "
+            f"the printed digits. Held as accelerations they would bring the chaser over the start "
+            f"distance and to rest in {np.ceil(steps):.0f} steps, and five times the thrust at "
+            f"hand would be needed"
+        ),
+    )
+
+
+def initial_distance(config: Config, results: Path) -> Proof:
+    """Section 3.6 against Table 3.2."""
+    distance = float(np.linalg.norm(start_state(config["rendezvous"])[:3])) / 1000.0
+    printed, half_unit = PRINTED_DISTANCE_KM
+    return Proof(
+        holds=abs(distance - printed) > half_unit,
+        as_printed=f"{printed:g} km",
+        as_corrected=f"{distance:.3f} km",
+        statement=f"The position of Table 3.2 has the length {1000.0 * distance:.1f} m",
+    )
+
+
+def thrust_as_delta_v(config: Config, results: Path) -> Proof:
+    """Chapter 1: the printed bound holds for the thrust, and the delta-v has another unit."""
+    craft = config["rendezvous"]["spacecraft"]
+    bound = max(phase["control_bound_m_s"] for phase in config["rendezvous"]["phases"].values())
+    seconds = bound * craft["mass_kg"] / craft["thruster_N"]
+    return Proof(
+        holds=bool(craft["thruster_N"] < PRINTED_THRUST_N and abs(seconds - 1.0) > 0.5),
+        as_printed="a delta-v in newtons",
+        as_corrected=f"a thrust: {craft['thruster_N']:g} N < {PRINTED_THRUST_N:g} N",
+        statement=(
+            f"Thrust and delta-v differ by a time over the mass: the largest delta-v of a step is "
+            f"{bound:g} m/s, {seconds:.0f} s of {craft['thruster_N']:g} N on "
+            f"{craft['mass_kg']:g} kg; Section 2.1.2 cites the same source for thrusts up to "
+            f"{PRINTED_THRUST_N:g} N"
+        ),
+    )
+
+
+def port_axis(config: Config, results: Path) -> Proof:
+    """Table 3.2: the port's direction in the body against the approach axis of Case 1."""
+    section = config["rendezvous"]
+    port = np.array(section["port_m"], dtype=float)
+    axis = np.array(law(section, "v-bar").axis)
+    cosine = port @ axis / np.linalg.norm(port) / np.linalg.norm(axis)
+    angle = float(np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0))))
+    cone = section["phases"]["final"]["cone_angle_deg"]
+    return Proof(
+        holds=angle > cone,
+        as_printed=f"port and approach axis {angle:.0f} deg apart",
+        as_corrected="0 deg, with the body's x axis along the approach axis",
+        statement=(
+            f"With the body's axes along those of the orbit the port lies {angle:.0f} deg off the "
+            f"V-bar, and the cone of {cone:g} deg opens along the V-bar. Sections 3.6.1 and 3.6.3 "
+            f"dock at a port in the direction of the cone, so the body is turned, by an attitude "
+            f"that is not printed"
+        ),
+    )
+
+
+def on_time(config: Config, results: Path) -> Proof:
+    """Eq. 2.5: the impulse of the printed on-time against the one that was asked for."""
+    craft = config["rendezvous"]["spacecraft"]
+    phase = config["rendezvous"]["phases"]["far"]
+    sample, delta_v = phase["sample_time_s"], phase["control_bound_m_s"]
+    mass, thrust = craft["mass_kg"], craft["thruster_N"]
+    force = mass * delta_v / sample  # "F dt = m dv"
+    printed, correct = force / thrust, force * sample / thrust
+    return Proof(
+        holds=bool(
+            abs(thrust * correct / mass - delta_v) < ROUNDING
+            and abs(thrust * printed / mass - delta_v) > 0.5 * delta_v
+        ),
+        as_printed=f"{printed:.3f}, without a unit",
+        as_corrected=f"{correct:.2f} s",
+        statement=(
+            f"For {delta_v:g} m/s the printed ratio, taken in seconds, gives an impulse of "
+            f"{thrust * printed:.3f} N s where {mass * delta_v:.2f} N s are needed; with the "
+            f"sample time it gives them exactly"
+        ),
+    )
+
+
+def last_state_twice(config: Config, results: Path) -> Proof:
+    """Eq. 2.12: only the sum to N - 1 makes the Riccati weight stand for the infinite rest."""
+    section = config["rendezvous"]
+    given = law(section, "v-bar")
+    # The final phase, whose heavy control weight leaves much to do after its horizon.
+    matrix = transition(rate_matrix(given.mean_motion), given.sample_times[2])
+    weights = np.diag(np.asarray(given.state_weights)[2])
+    control = np.diag(np.asarray(given.control_weights)[2])
+    rest = terminal_weight(matrix, np.diag(weights), np.diag(control))
+    effect = matrix[:, 3:]
+    gain = np.linalg.solve(control + effect.T @ rest @ effect, effect.T @ rest @ matrix)
+    state = start_state(section)
+    infinite = float(state @ rest @ state)
+    running = 0.0
+    for _ in range(given.horizons[2]):
+        command = -gain @ state
+        running += float(state @ weights @ state + command @ control @ command)
+        state = matrix @ state + effect @ command
+    corrected = running + float(state @ rest @ state)
+    printed = corrected + float(state @ weights @ state)
+    return Proof(
+        holds=bool(
+            abs(corrected / infinite - 1.0) < ROUNDING
+            and abs(printed / infinite - 1.0) > 100.0 * ROUNDING
+        ),
+        as_printed=f"off by {printed / infinite - 1.0:.1e} of the cost",
+        as_corrected=f"equal to it within {ROUNDING:g}",
+        statement=(
+            "Without constraints the cost with the Riccati weight of Section 2.2.2 must equal that "
+            "of the infinite horizon. Summed to N - 1 it does; summed to N it exceeds it by the "
+            "last state's stage cost, and the control u_N, which moves nothing, is paid for"
+        ),
+    )
+
+
+def printed_stage_cost(command: np.ndarray, weight: float) -> float:
+    """Eq. 2.11b as printed, without the one that counts time."""
+    return float(np.abs(weight * command).sum())
+
+
+def quadratic_stage_cost(config: Config, results: Path) -> Proof:
+    """Eq. 2.11b: a quadratic form has the same curvature everywhere, a norm none off its kinks."""
+    weight = config["rendezvous"]["phases"]["far"]["control_weight"]
+    command, direction = np.array([0.1, -0.2, 0.3]), np.array([0.5, 0.4, -0.7])
+    step = 0.01
+
+    def curvature(cost) -> float:
+        ahead, here, behind = (cost(command + s * direction) for s in (step, 0.0, -step))
+        return float(ahead - 2.0 * here + behind) / step**2
+
+    printed = curvature(lambda u: printed_stage_cost(u, weight))
+    correct = curvature(lambda u: u @ (weight * u))
+    exact = 2.0 * weight * float(direction @ direction)
+    return Proof(
+        holds=bool(abs(printed) < 1e-6 * exact and abs(correct / exact - 1.0) < 1e-6),
+        as_printed="no curvature: the 1-norm of Eq. 2.11a again",
+        as_corrected=f"u' R u has a curvature of {correct:.0f} along a sample direction",
+        statement=(
+            f"Differences of second order along a sample direction give the printed form a "
+            f"curvature of zero, where R makes {exact:.0f}: both lines of Eq. 2.11 are the same "
+            f"function"
+        ),
+    )
+
+
+def docking_cone_apex(config: Config, results: Path) -> Proof:
+    """Eqs. 3.12 and 3.14: a chaser at the port, over the horizon of the rotating case."""
+    section = config["rendezvous"]
+    given = law(section, "rotating")
+    axis, last, faces = np.empty(3), np.empty(3), np.empty((4, 3))
+    tangent = np.tan(given.cone_angles[2])
+    duration = given.horizons[2] * given.sample_times[2]
+    rotated(np.array(given.axis), given.rotation_rate * duration, last)
+    moved = given.port * float(np.linalg.norm(last - np.array(given.axis)))
+    printed = corrected = -np.inf
+    for i in range(given.horizons[2] + 1):
+        rotated(np.array(given.axis), given.rotation_rate * i * given.sample_times[2], axis)
+        cone_faces(axis, tangent, faces)
+        port = given.port * axis
+        printed = max(printed, float(np.max(faces @ (port - given.port * last))))
+        corrected = max(corrected, float(np.max(faces @ (port - port))))
+    return Proof(
+        holds=bool(printed > ROUNDING and corrected <= 0.0),
+        as_printed=f"a docked chaser is outside by up to {1000.0 * printed:.0f} mm",
+        as_corrected="a docked chaser is at the tip of the cone at every stage",
+        statement=(
+            f"With the rotation of Case 3, inferred, the port moves by "
+            f"{1000.0 * moved:.0f} mm over the horizon of {duration:g} s; the printed constraint "
+            f"has the tip of every stage's cone at the port's last place, while H and the "
+            f"reference of Eq. 3.11 go with the stage"
+        ),
+    )
+
+
+def rendezvous_end_distance(config: Config, results: Path) -> Proof:
+    """Algorithm 1: the end as printed never comes, for the keep-out constraint forbids it."""
+    keep_out = law(config["rendezvous"], "v-bar").keep_out
+    flights = read_table(results / "flights.parquet")
+    far = flights[(flights["flight"] == "v-bar") & (flights["phase"] == "far")]
+    distance = np.linalg.norm(far[["x_m", "y_m", "z_m"]].to_numpy(), axis=1)
+    ends = flights[(flights["flight"] == "v-bar") & (flights["phase"] == "mid")].iloc[0]
+    end = float(np.linalg.norm(ends[["x_m", "y_m", "z_m"]].to_numpy(dtype=float)))
+    never = bool((distance > keep_out - 1e-6 * keep_out).all() and end > keep_out)
+    return Proof(
+        holds=never,
+        as_printed=f"never within r1: {distance.min():.1f} m is the least of {len(far)} samples",
+        as_corrected=f"ends at {end:.1f} m",
+        statement=(
+            f"Eq. 3.5 makes n'x >= r1 and so |x| >= r1 at every predicted step. In our run of "
+            f"Case 1 no sample of the far range comes within r1 = {keep_out:.1f} m, inferred; the "
+            f"end needs a margin above r1, which is not printed"
+        ),
+    )
+
+
+def rendezvous_end_cone(config: Config, results: Path) -> Proof:
+    """Algorithm 1: x <= Hx compares three entries with four; Hx <= 0 is the cone."""
+    section = config["rendezvous"]
+    given = law(section, "v-bar")
+    faces = np.empty((section["cone_faces"], 3))
+    cone_faces(np.array(given.axis), np.tan(given.cone_angles[0]), faces)
+    flights = read_table(results / "flights.parquet")
+    mid = flights[(flights["flight"] == "v-bar") & (flights["phase"] == "mid")].iloc[0]
+    end = mid[["x_m", "y_m", "z_m"]].to_numpy(dtype=float)
+    start = start_state(section)[:3]
+    inside, outside = float((faces @ end).max()), float((faces @ start).max())
+    return Proof(
+        holds=bool(len(faces) != len(end) and inside <= ROUNDING < outside),
+        as_printed=f"{len(end)} entries against {len(faces)}",
+        as_corrected=f"largest of H x: {outside:.0f} m at the start, {inside:.1f} m at the end",
+        statement=(
+            f"H has {len(faces)} rows for the polyhedron of Section 3.1.2 and x has {len(end)} "
+            f"components, so the printed condition is no condition; Hx <= 0 is false where Case 1 "
+            f"starts and true where our run of it enters the mid range"
+        ),
+    )
+
+
+def approach_end_vector(config: Config, results: Path) -> Proof:
+    """Algorithm 1: x <= r2 by components is true far away, on the other side of the target."""
+    overshoot = law(config["rendezvous"], "v-bar").overshoot
+    flights = read_table(results / "flights.parquet")
+    mid = flights[flights["flight"].isin(CASE_TABLES) & (flights["phase"] == "mid")]
+    # The motion is linear: mirrored at the target, a flight is one to a port on the other side.
+    mirrored = -mid[["x_m", "y_m", "z_m"]].to_numpy()
+    distance = np.linalg.norm(mirrored, axis=1)
+    wrong = (mirrored <= overshoot).all(axis=1) & (distance > 2.0 * overshoot)
+    reach = float(distance[wrong].max(initial=0.0))
+    return Proof(
+        holds=bool(wrong.any()),
+        as_printed=f"true at up to {reach:.0f} m from the target",
+        as_corrected=f"|x| <= r2 is false wherever |x| > {overshoot:.1f} m",
+        statement=(
+            f"A vector is not below a number. Read by components, the condition is true at "
+            f"{int(wrong.sum())} of {len(mid)} samples of our mid ranges, mirrored to a port on "
+            f"the other side of the target, although they lie farther off than twice r2 = "
+            f"{overshoot:.1f} m, inferred. Section 3.3 speaks of the distance"
+        ),
+    )

@@ -1,0 +1,169 @@
+"""Predicates of what chapter 5 says in words, each a statistical test fixed before the run.
+
+Units that are resampled are initial states, each with the mean of its runs, so that runs from one
+state do not count as independent. Manoeuvres that the time limit ends count as they ended.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from smallsat.config import Config
+from smallsat.evidence.claims import Judgement, judged
+from smallsat.evidence.effects import above, judgement
+from smallsat.results import read_table
+from smallsat.statistics.bootstrap import Effect, effect
+from smallsat.studies.rendezvous.evidence.sensitivity_claims import bootstrap, median, negative
+from smallsat.studies.rendezvous.monte_carlo.cases import (
+    AS_DOCUMENTED,
+    CLOHESSY_WILTSHIRE,
+    FILTERED,
+    SCHWEIGHART_SEDWICK,
+    UNDISTURBED,
+    prediction_case,
+)
+from smallsat.studies.rendezvous.monte_carlo.summaries import bounce
+from smallsat.studies.rendezvous.monte_carlo.tables import column, totals
+
+# What words are taken to mean.
+BOUNCING = 2.0  # docking takes this many times the undisturbed time
+CONSIDERABLY = 0.25
+ROBUST = 0.95  # share of the manoeuvres that end within the limit
+CLOSE = 0.25
+# Of Section 5.4.
+PRINTED_DELTA_V_M_S, PRINTED_TIME_MIN = 4.25, 19.536
+
+DELTA_V, TIME = "delta_v_m_s", "time_s"
+WORDS = {DELTA_V: "delta-v", TIME: "time"}
+
+
+def by_state(results: Path, case: str) -> pd.DataFrame:
+    """Mean and standard deviation over the runs from each initial state of a case.
+
+    Columns: mean and deviation of the totals ``delta_v_m_s`` and ``time_s``, mean of both in the
+    docking phase (``docking_...``), and the share of runs that ``completed``.
+    """
+    table = read_table(results / "studies/robustness.parquet")
+    rows = table[table["case"] == case]
+    if rows.empty:
+        raise LookupError(case)
+    frame = pd.DataFrame({"sample": rows["sample"], "completed": rows["completed"].astype(float)})
+    for quantity in (DELTA_V, TIME):
+        frame[quantity] = totals(rows, quantity)
+        frame[f"docking_{quantity}"] = rows[column("docking", quantity)]
+    grouped = frame.groupby("sample")
+    means = grouped.mean()
+    for quantity in (DELTA_V, TIME):
+        means[f"deviation_{quantity}"] = grouped[quantity].std()
+    return means
+
+
+def _two(results: Path, first: str, second: str) -> tuple[pd.DataFrame, pd.DataFrame]:
+    a, b = by_state(results, first), by_state(results, second)
+    common = a.index.intersection(b.index)
+    return a.loc[common], b.loc[common]
+
+
+def increase_comes_from_docking(config: Config, results: Path) -> Judgement:
+    """Section 5.4: share of the docking phase in what the disturbances add."""
+    calm, noisy = _two(results, UNDISTURBED, AS_DOCUMENTED)
+    found = []
+    for quantity in (DELTA_V, TIME):
+        whole = (noisy[quantity] - calm[quantity]).to_numpy()
+        part = (noisy[f"docking_{quantity}"] - calm[f"docking_{quantity}"]).to_numpy()
+
+        def share(drawn: np.ndarray, part=part, whole=whole) -> np.ndarray:
+            return part[drawn].sum(axis=1) / whole[drawn].sum(axis=1)
+
+        found.append(effect(WORDS[quantity], share, len(whole), bootstrap(config), 2))
+    return judgement(above(found, 0.5), "share of docking in the increase, to be above half", found)
+
+
+def chaser_bounces(config: Config, results: Path) -> Judgement:
+    """Section 5.4: time of docking against that without disturbances."""
+    calm, noisy = _two(results, UNDISTURBED, AS_DOCUMENTED)
+    ratio = (noisy["docking_time_s"] / calm["docking_time_s"]).to_numpy()
+    found = [effect("ratio", median(ratio), len(ratio), bootstrap(config))]
+    return judgement(
+        above(found, BOUNCING), "median ratio of docking times, to be above two", found
+    )
+
+
+def guidance_is_robust(config: Config, results: Path) -> Judgement:
+    """Chapters 5 and 7: share of the disturbed manoeuvres that end within the limit."""
+    done = by_state(results, AS_DOCUMENTED)["completed"].to_numpy()
+    found = [effect("share", lambda i: done[i].mean(axis=1), len(done), bootstrap(config))]
+    return judgement(above(found, ROBUST), "share that docks within the limit, to be 95 %", found)
+
+
+def filter_reduces_bounce(config: Config, results: Path) -> Judgement:
+    """Section 5.5: delta-v and time with a filter against raw measurements."""
+    raw, filtered = _two(results, AS_DOCUMENTED, FILTERED)
+    found = [
+        effect(
+            WORDS[q],
+            median((filtered[q] / raw[q] - 1.0).to_numpy()),
+            len(raw),
+            bootstrap(config),
+            2,
+        )
+        for q in (DELTA_V, TIME)
+    ]
+    return judgement(
+        above(negative(found), CONSIDERABLY),
+        "median change of the means, to be a drop by a quarter or more",
+        found,
+    )
+
+
+def mean_deviation(config: Config, results: Path, case: str, quantity: str) -> Effect:
+    """Mean over the initial states of the standard deviation over runs, m/s or s."""
+    found = by_state(results, case)[f"deviation_{quantity}"].to_numpy()
+    return effect(WORDS[quantity], lambda i: found[i].mean(axis=1), len(found), bootstrap(config))
+
+
+def prediction_with_j2_helps(config: Config, results: Path) -> Judgement:
+    """Section 3.7: delta-v with J2 in the prediction against without, over inclinations."""
+    table = read_table(results / "studies/prediction.parquet")
+    inclinations = config["rendezvous"]["studies"]["prediction"]["inclinations_deg"]
+    found = []
+    for inclination in inclinations:
+        without, with_j2 = (
+            table[table["case"] == prediction_case(model, inclination)].set_index("sample")
+            for model in (CLOHESSY_WILTSHIRE, SCHWEIGHART_SEDWICK)
+        )
+        both = without["completed"] & with_j2["completed"]
+        a, b = (totals(rows[both], DELTA_V).to_numpy() for rows in (without, with_j2))
+        name = f"delta-v, {inclination:g} deg"
+        found.append(
+            effect(name, median(b / a - 1.0), len(a), bootstrap(config), len(inclinations))
+        )
+    return judgement(above(negative(found)), "median change, to be a drop", found)
+
+
+def one_distance_gives_both_deviations(config: Config, results: Path) -> Judgement:
+    """Our own: the docking distance that gives one printed deviation gives the other one too.
+
+    At the document's time limit, between the distances of the passages; written after the first
+    runs had been seen.
+    """
+    table = bounce(results / "studies")
+    limit = config["rendezvous"]["studies"]["time_limit_min"]
+    rows = table[table["time_limit_min"] == limit].set_index("end_distance_m")
+    # Where the chaser docks in most runs the deviations fall with the distance.
+    rows = rows[rows["docked_share"] > 0.5]
+    if rows.empty:
+        raise LookupError(f"passages at {limit:g} min")
+    time, delta_v = rows["deviation_time_min"][::-1], rows["deviation_delta_v_m_s"][::-1]
+    distances = rows.index.to_numpy()[::-1]
+    if not time.min() < PRINTED_TIME_MIN < time.max():
+        return Judgement("fails", f"the deviation of the time is never {PRINTED_TIME_MIN:g} min")
+    distance = float(np.interp(PRINTED_TIME_MIN, time, distances))
+    there = float(np.interp(PRINTED_TIME_MIN, time, delta_v))
+    return judged(
+        abs(there / PRINTED_DELTA_V_M_S - 1.0) < CLOSE,
+        f"at a docking distance of {100 * distance:.1f} cm the deviation of the time is "
+        f"{PRINTED_TIME_MIN:g} min, as printed, and that of delta-v {there:.2f} m/s, printed "
+        f"{PRINTED_DELTA_V_M_S:g} m/s (interpolated; to be within {100 * CLOSE:.0f} %)",
+    )

@@ -1,0 +1,299 @@
+"""The document's explanatory figures, drawn from the planes, cones and predictions of flown cases.
+
+Each function returns the figure and the table of what it draws.
+"""
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.pyplot import subplots
+
+from smallsat.config import Config
+from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
+from smallsat.optimal_control.riccati_interior_point import workspace
+from smallsat.studies.rendezvous.figures.cases import (
+    INFERRED,
+    PHASE_COLOURS,
+    PHASE_TITLES,
+    draw_cone,
+    draw_zone,
+)
+from smallsat.studies.rendezvous.guidance.law import PHASES, Law, settings
+from smallsat.studies.rendezvous.guidance.phase_programs import BOUNDS, PLANES, program_room
+from smallsat.studies.rendezvous.model.environment import orbit_radius
+from smallsat.studies.rendezvous.model.geometry import keep_out_normals
+from smallsat.studies.rendezvous.model.prediction import transition
+from smallsat.studies.rendezvous.parameters import law
+from smallsat.studies.rendezvous.simulation.closed_loop import next_control
+from smallsat.studies.rendezvous.simulation.flights import CHANGE, STATE
+
+Drawing = tuple[Figure, pd.DataFrame]
+KM = 1000.0
+EARTH_RADIUS_M = 6378137.0
+# Planes of a horizon that are drawn, counted from the chaser.
+DRAWN_PLANES = 7
+
+
+def predicted(
+    given: Law, phase: int, state: np.ndarray, time: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """States, (N + 1, 6), and velocity changes, (N, 3), that the law plans from a state."""
+    record = settings([given])[0]
+    stages = given.horizons[phase]
+    room = program_room(stages)
+    work = workspace(stages, PLANES, BOUNDS)
+    plan, place = np.zeros(work.controls.shape), np.zeros(2, np.int64)
+    next_control(record, phase, state, time, room, work, plan, place, np.zeros(3))
+    matrix = transition(rate_matrix(given.mean_motion), given.sample_times[phase])
+    states = [state]
+    for change in plan[:stages]:
+        moved = states[-1].copy()
+        moved[3:] += change
+        states.append(matrix @ moved)
+    return np.array(states), plan[:stages].copy()
+
+
+def frame(section: Config) -> Drawing:
+    """Figure 2.1: the target's frame on its orbit, and the chaser at the start of the cases."""
+    given = law(section, "v-bar")
+    radius = orbit_radius(given.mean_motion)
+    earth = EARTH_RADIUS_M
+    figure, axes = subplots(figsize=(4.6, 4.0))
+    turn = np.radians(np.linspace(55.0, 125.0, 141))
+    for size, colour in ((earth, "0.35"), (radius, "C0")):
+        axes.plot(size / KM * np.cos(turn), size / KM * np.sin(turn), color=colour, lw=1.2)
+    axes.fill_between(
+        earth / KM * np.cos(turn), earth / KM * np.sin(turn), 3200.0, color="#dfe7ee", lw=0
+    )
+    place = np.array([0.0, radius / KM])
+    axes.plot([0.0, place[0]], [3200.0, place[1]], color="0.5", lw=0.7, ls="--")
+    length = 1100.0
+    # Counter-clockwise motion as seen from the orbit normal: the velocity points to the left.
+    rows = []
+    for name, direction, use in (
+        ("x", (0.0, 1.0), "radially outwards"),
+        ("y", (-1.0, 0.0), "along the velocity"),
+    ):
+        tip = place + length * np.array(direction)
+        axes.annotate(
+            "", tuple(tip), tuple(place), arrowprops={"arrowstyle": "-|>", "color": "C1", "lw": 1.6}
+        )
+        rows.append({"item": name, "right": direction[0], "up": direction[1], "use": use})
+    axes.text(80.0, place[1] + 0.85 * length, r"$\hat{x}$ (R-bar)", color="C1")
+    axes.text(-1.0 * length, place[1] + 130.0, r"$\hat{y}$ (V-bar)", color="C1", ha="center")
+    axes.plot(*place, "o", ms=11, mfc="white", mec="C1", zorder=4)
+    axes.plot(*place, "o", ms=3.5, color="C1", zorder=5)
+    axes.text(
+        place[0] + 120.0,
+        place[1] - 900.0,
+        r"$\hat{z}$ out of the page," "\norbit normal",
+        color="C1",
+    )
+    axes.text(-2050.0, 5350.0, "Earth", color="0.35")
+    height = (radius - EARTH_RADIUS_M) / KM
+    axes.text(
+        1500.0, 6900.0, f"target's orbit,\n{height:.0f} km high (inferred)", color="C0", fontsize=8
+    )
+    axes.set(xlim=(-3300, 3300), ylim=(4900, 8300), aspect="equal")
+    axes.set_axis_off()
+    rows.append({"item": "z", "right": 0.0, "up": 0.0, "use": "orbit normal, out of the page"})
+    rows.append({"item": "orbit radius [km]", "right": 0.0, "up": radius / KM, "use": "inferred"})
+    return figure, pd.DataFrame(rows)
+
+
+def horizon(section: Config, flights: pd.DataFrame) -> Drawing:
+    """Figure 2.2: past, plan and what was flown along the approach axis in Case 1's mid range."""
+    given = law(section, "v-bar")
+    own = flights[(flights["flight"] == "v-bar") & (flights["phase"] != "far")]
+    mid = own[own["phase"] == "mid"]
+    if mid.empty:
+        return _missing("Case 1 does not come to its mid range")
+    now = mid.iloc[len(mid) // 3]
+    states, changes = predicted(given, 1, now[STATE].to_numpy(dtype=float), float(now["time_s"]))
+    step = given.sample_times[1]
+    time = (np.arange(len(states))) * step
+    past = mid[mid["time_s"] <= now["time_s"]]
+    later = own[(own["time_s"] >= now["time_s"]) & (own["time_s"] <= now["time_s"] + time[-1])]
+    figure, (top, bottom) = subplots(
+        2, 1, figsize=(5.6, 4.0), sharex=True, height_ratios=(1.4, 1.0)
+    )
+    top.plot(past["time_s"] - now["time_s"], past["y_m"], "o-", color="black", ms=3.5, label="past")
+    top.plot(time, states[:, 1], "o--", color="C0", ms=3.5, mfc="white", label="plan at $t_k$")
+    top.plot(later["time_s"] - now["time_s"], later["y_m"], color="C1", lw=1.0, label="then flown")
+    top.axhline(given.overshoot, color="0.5", lw=0.8, ls=":")
+    top.text(
+        0.99,
+        given.overshoot + 1.5,
+        "$r_2$ (inferred)",
+        transform=top.get_yaxis_transform(),
+        ha="right",
+        fontsize=7,
+        color="0.4",
+    )
+    top.set_ylabel("along track $y$ [m]")
+    top.legend()
+    bottom.step(np.r_[past["time_s"] - now["time_s"]], past["dvy_m_s"], where="post", color="black")
+    bottom.step(time, np.r_[changes[:, 1], changes[-1, 1]], where="post", color="C0", ls="--")
+    bottom.plot(
+        0.0, changes[0, 1], "o", color="C1", ms=6, mfc="none", label="applied: the first one"
+    )
+    for sign in (-1, 1):
+        bottom.axhline(sign * given.control_bounds[1], color="0.5", lw=0.8, ls=":")
+    bottom.set(xlabel="time from $t_k$ [s]", ylabel=r"$\Delta v_y$ [m/s]")
+    bottom.legend(loc="lower right")
+    for axes in (top, bottom):
+        axes.axvline(0.0, color="0.6", lw=0.8)
+        axes.axvspan(0.0, time[-1], color="#f3efe2", zorder=0)
+    table = pd.DataFrame(states, columns=STATE).assign(time_s=time, drawn="plan")
+    table[CHANGE] = np.vstack([changes, np.full(3, np.nan)])
+    return figure, pd.concat(
+        [
+            past.assign(time_s=past["time_s"] - now["time_s"], drawn="past")[
+                ["drawn", "time_s", *STATE, *CHANGE]
+            ],
+            table,
+        ],
+        ignore_index=True,
+    )
+
+
+def _missing(words: str) -> Drawing:
+    """What stands in the place of a figure whose flight there is not."""
+    figure, axes = subplots(figsize=(5.6, 1.5))
+    axes.set_axis_off()
+    axes.text(0.5, 0.5, words, ha="center", va="center")
+    return figure, pd.DataFrame(columns=["drawn", "time_s", *STATE, *CHANGE])
+
+
+def phases(section: Config, flights: pd.DataFrame, paths: pd.DataFrame) -> Drawing:
+    """Figure 3.1: keep-out zone, approach cone, overshoot plane and docking cone, at two scales."""
+    given = law(section, "v-bar")
+    axis = np.array(given.axis)
+    path = paths[paths["flight"] == "v-bar"]
+    figure, (wide, near) = subplots(1, 2, figsize=(6.3, 3.4))
+    reach = 1.9 * given.keep_out
+    limit = 2.1 * given.overshoot
+    draw_zone(wide, given.keep_out)
+    draw_cone(wide, axis, given.cone_angles[0], 0.0, 1.7 * given.keep_out)
+    wide.plot([0.0], [0.0], "ks", ms=4)
+    wide.set(xlim=(-0.85 * reach, 1.15 * reach), ylim=(-reach, reach), aspect="equal")
+    wide.set_title("rendezvous and approach")
+    draw_cone(near, axis, given.cone_angles[1], 0.0, 1.6 * limit, 0.3)
+    draw_cone(near, axis, given.cone_angles[2], given.port, 1.6 * limit)
+    near.axvline(given.overshoot, color="0.35", lw=1.0, ls="--")
+    near.text(given.overshoot, 0.68 * limit / 2, " $r_2$: overshoot\n plane", fontsize=8)
+    near.plot([0.0], [0.0], "ks", ms=6)
+    near.plot(given.port, 0.0, "^", color="C3", ms=5)
+    near.text(given.port, -0.24 * limit / 2, "port", fontsize=8, color="C3", ha="center")
+    near.set(xlim=(-0.25 * limit, limit), ylim=(-limit / 2, limit / 2))
+    near.set_title("approach and docking")
+    wide.text(0.0, -0.6 * given.keep_out, "keep-out\nzone $r_1$", ha="center", fontsize=8)
+    wide.text(
+        1.35 * given.keep_out, 0.33 * given.keep_out, "approach\ncone", ha="center", fontsize=8
+    )
+    points = {0: given.set_points[0], 1: given.set_points[1]}
+    wide.plot(points[0], 0.0, "x", color="black", ms=6)
+    near.plot(points[1], 0.0, "x", color="black", ms=6)
+    for axes in (wide, near):
+        for phase in PHASES:
+            part = path[path["phase"] == phase]
+            axes.plot(
+                part["y_m"],
+                part["x_m"],
+                color=PHASE_COLOURS[phase],
+                lw=1.2,
+                label=PHASE_TITLES[phase],
+                zorder=3,
+            )
+        axes.set_xlabel("along track $y$ [m]")
+        axes.locator_params(nbins=5)
+    wide.set_ylabel("radial $x$ [m]")
+    handles, labels = wide.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=3)
+    figure.suptitle(f"crosses: set points; {INFERRED}", fontsize=7, color="0.4")
+    rows = [
+        ("keep-out radius r1 [m]", given.keep_out),
+        ("overshoot distance r2 [m]", given.overshoot),
+        ("port [m]", given.port),
+        *[
+            (f"half angle, {PHASE_TITLES[name]} [deg]", np.degrees(angle))
+            for name, angle in zip(PHASES, given.cone_angles, strict=True)
+        ],
+        *[
+            (f"set point, {PHASE_TITLES[name]} [m]", point)
+            for name, point in zip(PHASES, given.set_points, strict=False)
+        ],
+    ]
+    return figure, pd.DataFrame(rows, columns=["item", "value"])
+
+
+def rotating_planes(section: Config, flights: pd.DataFrame) -> Drawing:
+    """Figure 3.2: the planes of one horizon of the run that is guided around the zone."""
+    given = law(section, "no-set-point")
+    own = flights[(flights["flight"] == "no-set-point") & (flights["phase"] == "far")]
+    distance = np.hypot(own["x_m"], own["y_m"])
+    near = own[distance < 1.15 * given.keep_out]
+    now = near.iloc[len(near) // 3] if len(near) else own.iloc[len(own) // 2]
+    state, time = now[STATE].to_numpy(dtype=float), float(now["time_s"])
+    stages = given.horizons[0]
+    normals = np.empty((stages + 1, 3))
+    keep_out_normals(
+        state[:3], state[3:], np.array(given.axis), stages,
+        given.plane_rate * given.mean_motion * given.sample_times[0], given.plane_rule, normals,
+    )  # fmt: skip
+    states, _ = predicted(given, 0, state, time)
+    figure, axes = subplots(figsize=(4.8, 4.4))
+    draw_zone(axes, given.keep_out)
+    draw_cone(axes, np.array(given.axis), given.cone_angles[0], 0.0, 1.7 * given.keep_out)
+    chosen = np.unique(np.linspace(0, stages, DRAWN_PLANES).astype(int))
+    rows = []
+    _planes(axes, normals[chosen], given.keep_out)
+    axes.plot(states[:, 1], states[:, 0], "o-", color="C1", ms=2.5, lw=0.9, label="planned states")
+    axes.plot(states[chosen, 1], states[chosen, 0], "o", color="C1", ms=5, mfc="white", zorder=4)
+    for i in chosen:
+        n = normals[i]
+        rows.append(
+            {
+                "stage": int(i),
+                "n_x": n[0],
+                "n_y": n[1],
+                "n_z": n[2],
+                "x_m": states[i, 0],
+                "y_m": states[i, 1],
+            }
+        )
+    axes.plot(0.0, 0.0, "ks", ms=4)
+    edge = 1.75 * given.keep_out
+    axes.set(
+        xlim=(-edge, edge),
+        ylim=(-edge, edge),
+        aspect="equal",
+        xlabel="along track $y$ [m]",
+        ylabel="radial $x$ [m]",
+    )
+    turn = np.degrees(np.arccos(np.clip(normals[0] @ normals[-1], -1.0, 1.0)))
+    axes.set_title(
+        f"{len(chosen)} of {stages + 1} planes, {turn:.0f}° over the horizon; {INFERRED}",
+        fontsize=7,
+        color="0.4",
+    )
+    axes.legend(loc="upper left")
+    return figure, pd.DataFrame(rows)
+
+
+def _planes(axes: Axes, normals: np.ndarray, radius: float) -> None:
+    """Cuts of planes with the orbit's plane: tangents of the circle, with their normals."""
+    for number, normal in enumerate(normals):
+        shade = str(0.15 + 0.55 * number / max(len(normals) - 1, 1))
+        flat = normal[:2] / np.linalg.norm(normal[:2])
+        across = np.array([-flat[1], flat[0]])
+        ends = np.array([radius * flat + sign * 0.75 * radius * across for sign in (-1, 1)])
+        axes.plot(ends[:, 1], ends[:, 0], color=shade, lw=1.0)
+        tip = 1.22 * radius * flat
+        axes.annotate(
+            "",
+            tip[::-1],
+            (radius * flat)[::-1],
+            arrowprops={"arrowstyle": "-|>", "color": shade, "lw": 0.9},
+        )

@@ -1,0 +1,234 @@
+"""Figures of chapter 4 and appendix A: scatter plots of many manoeuvres, and their quantiles.
+
+Each function returns the figure and the table of exactly what it draws.
+"""
+
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.pyplot import subplots
+
+from smallsat.drawing.style import BLACK, BLUE, GREEN, ORANGE, VERMILION
+from smallsat.studies.rendezvous.monte_carlo.cases import PHASES, sweep_case
+from smallsat.studies.rendezvous.monte_carlo.tables import column, totals
+
+Drawing = tuple[Figure, pd.DataFrame]
+MINUTE, KM = 60.0, 1e3
+# Hundreds of dots a colour stay readable when each is small and lets the others through.
+DOT: dict[str, Any] = {"s": 7.0, "alpha": 0.45, "linewidths": 0.0}
+QUADRANT_COLOURS = {1: BLUE, 2: GREEN, 3: ORANGE, 4: VERMILION}
+GREY = "#9a9a9a"
+QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
+RINGS_KM = (0.15, 0.5, 1.0, 1.5, 2.0, 2.5)
+
+
+def positions(states: pd.DataFrame) -> Drawing:
+    """Initial positions in the orbital plane."""
+    figure, axes = subplots(figsize=(4.2, 4.2))
+    axes.scatter(states["y_m"] / KM, states["x_m"] / KM, color=BLUE, **DOT)
+    _orbit_axes(axes)
+    return figure, states[["sample", "x_m", "y_m", "z_m"]]
+
+
+def by_quadrant(states: pd.DataFrame, rows: pd.DataFrame) -> Drawing:
+    """Initial positions and cost of the manoeuvre, coloured by quadrant of the orbital plane."""
+    data = _costs(states, rows)
+    colours = data["quadrant"].map(QUADRANT_COLOURS)
+    entries = [(f"quadrant {q}", colour) for q, colour in QUADRANT_COLOURS.items()]
+    figure, axes = _pair(data, colours)
+    _legend(axes[1], entries)
+    return figure, data
+
+
+def by_distance(states: pd.DataFrame, rows: pd.DataFrame) -> Drawing:
+    """Initial positions and cost of the manoeuvre, coloured by initial distance."""
+    data = _costs(states, rows)
+    rings = list(pairwise(RINGS_KM))
+    palette = shades(len(rings))
+    ring = np.clip(np.digitize(data["distance_m"] / KM, RINGS_KM) - 1, 0, len(rings) - 1)
+    figure, axes = _pair(data, [palette[i] for i in ring])
+    _legend(axes[1], [(f"{a:g} to {b:g} km", palette[i]) for i, (a, b) in enumerate(rings)])
+    return figure, data
+
+
+def costs_beside_baseline(
+    states: pd.DataFrame, rows: pd.DataFrame, baseline: pd.DataFrame, name: str
+) -> Drawing:
+    """Cost of every manoeuvre of a variant, with the baseline's in grey."""
+    data = pd.concat(
+        [_costs(states, one).assign(case=case) for case, one in
+         (("baseline", baseline), (name, rows))], ignore_index=True,
+    )  # fmt: skip
+    figure, axes = subplots(figsize=(5.0, 3.4))
+    for case, colour in (("baseline", GREY), (name, BLUE)):
+        one = data[data["case"] == case]
+        axes.scatter(one["time_min"], one["delta_v_m_s"], color=colour, **DOT)
+    axes.set(xlabel="manoeuvre time [min]", ylabel=r"$\Delta v$ [m/s]", ylim=(0, None))
+    _legend(axes, [("QP with set point", GREY), (name, BLUE)])
+    return figure, data
+
+
+def sweep(table: pd.DataFrame, phase: str, horizon: int, sample_times: Sequence[float]) -> Drawing:
+    """Delta-v of a phase against its time and its number of actuations, by sample time.
+
+    Axes end before the few outermost manoeuvres where those would squeeze all others; how many lie
+    beyond is said.
+    """
+    quantities = ("time_s", "steps", "delta_v_m_s")
+    done = table[table["completed"]]
+    palette = shades(len(sample_times))
+    parts, entries = [], []
+    for i, t in enumerate(sample_times):
+        case = sweep_case(horizon, t)
+        rows = done[done["case"] == case]
+        left_out = int((table["case"] == case).sum()) - len(rows)
+        parts.append(
+            pd.DataFrame(
+                {"sample_time_s": t, "sample": rows["sample"].to_numpy()}
+                | {name: rows[column(phase, name)].to_numpy() for name in quantities}
+            ).assign(shade=i)
+        )
+        note = f" ({left_out} not completed)" if left_out else ""
+        entries.append((f"{t:g} s{note}", palette[i]))
+    # Dots of all sample times in turn, so that no colour lies on top of the others.
+    data = pd.concat(parts, ignore_index=True).sort_values(["sample", "sample_time_s"])
+    figure, axes = subplots(1, 2, figsize=(6.6, 3.3), sharey=True)
+    colours = [palette[i] for i in data["shade"]]
+    axes[0].scatter(data["time_s"] / MINUTE, data["delta_v_m_s"], color=colours, **DOT)
+    axes[1].scatter(data["steps"], data["delta_v_m_s"], color=colours, **DOT)
+    ends = [_end(data["time_s"] / MINUTE), _end(data["steps"]), _end(data["delta_v_m_s"])]
+    for one, end in zip(axes, ends, strict=False):
+        one.set_xlim(0, end)
+    axes[0].set_ylim(0, ends[2])
+    beyond = (
+        (data["time_s"] / MINUTE > ends[0])
+        | (data["steps"] > ends[1])
+        | (data["delta_v_m_s"] > ends[2])
+    )
+    if beyond.any():
+        axes[1].set_title(f"{int(beyond.sum())} of {len(data)} dots lie beyond", loc="right")
+    axes[0].set(xlabel="time of the phase [min]", ylabel=rf"$\Delta v$ of the {phase} phase [m/s]")
+    axes[1].set(xlabel="number of control actuations")
+    for name, one in zip("ab", axes, strict=True):
+        one.set_title(f"({name})", loc="left")
+    handles = [_handle(colour, label) for label, colour in entries]
+    figure.legend(
+        handles=handles,
+        loc="outside upper center",
+        ncols=min(len(handles), 6 if len(max(entries)[0]) < 12 else 3),
+        title=f"sample time, horizon {horizon}",
+        columnspacing=1.2,
+        handletextpad=0.1,
+    )
+    return figure, data.drop(columns="shade").reset_index(drop=True)
+
+
+def summary(sweeps: dict[str, tuple[pd.DataFrame, Sequence[int], Sequence[float]]]) -> Drawing:
+    """One page: median, quartiles and 5 and 95 % quantiles of every case of every sweep.
+
+    ``sweeps`` maps each phase to its table, its horizons and its sample times.
+    """
+    quantities = {
+        "delta_v_m_s": (r"$\Delta v$ [m/s]", 1.0),
+        "time_s": ("time [min]", MINUTE),
+        "steps": ("actuations", 1.0),
+    }
+    figure, axes = subplots(len(PHASES), len(quantities), figsize=(7.0, 7.6))
+    colours = (ORANGE, BLUE, BLACK)
+    rows = []
+    for line, phase in zip(axes, PHASES, strict=True):
+        table, horizons, sample_times = sweeps[phase]
+        done = table[table["completed"]]
+        positions_ = np.arange(len(sample_times), dtype=float)
+        for panel, (quantity, (label, unit)) in zip(line, quantities.items(), strict=True):
+            for i, n in enumerate(horizons):
+                found = np.full((len(sample_times), len(QUANTILES)), np.nan)
+                for j, t in enumerate(sample_times):
+                    values = done.loc[done["case"] == sweep_case(n, t), column(phase, quantity)]
+                    if len(values):
+                        found[j] = np.quantile(values / unit, QUANTILES)
+                    rows.append(
+                        {"phase": phase, "horizon": n, "sample_time_s": t, "quantity": label,
+                         "count": len(values)}
+                        | {f"quantile_{q:g}": v for q, v in zip(QUANTILES, found[j], strict=True)}
+                    )  # fmt: skip
+                x = positions_ + 0.24 * (i - 0.5 * (len(horizons) - 1))
+                colour = colours[i % len(colours)]
+                panel.vlines(x, found[:, 0], found[:, 4], color=colour, lw=0.9)
+                panel.vlines(x, found[:, 1], found[:, 3], color=colour, lw=3.4, alpha=0.45)
+                panel.plot(x, found[:, 2], "o", ms=3.2, color=colour, label=f"N {n}")
+            panel.set_xticks(positions_, [f"{t:g}" for t in sample_times])
+            panel.set_ylim(0, None)
+            panel.set_ylabel(label)
+            panel.grid(axis="x", visible=False)
+        line[0].set_title(f"{phase} phase", loc="left", fontweight="bold")
+        line[1].set_title("")
+        line[-1].legend(loc="upper right", handletextpad=0.2, borderpad=0.2)
+        line[1].set_xlabel("sample time [s]")
+    return figure, pd.DataFrame(rows)
+
+
+def shades(count: int) -> list:
+    """Colours of an ordered quantity, from dark blue to light orange."""
+    return list(mpl.colormaps["plasma"](np.linspace(0.03, 0.85, count)))
+
+
+def _costs(states: pd.DataFrame, rows: pd.DataFrame) -> pd.DataFrame:
+    done = rows[rows["completed"]].set_index("sample")
+    there = states.set_index("sample").loc[done.index]
+    return pd.DataFrame(
+        {
+            "sample": done.index,
+            "x_m": there["x_m"],
+            "y_m": there["y_m"],
+            "distance_m": there["distance_m"],
+            "quadrant": there["quadrant"],
+            "delta_v_m_s": totals(done, "delta_v_m_s"),
+            "time_min": totals(done, "time_s") / MINUTE,
+        }
+    ).reset_index(drop=True)
+
+
+def _pair(data: pd.DataFrame, colours: Iterable) -> tuple[Figure, np.ndarray]:
+    colours = list(colours)
+    figure, axes = subplots(1, 2, figsize=(6.8, 3.2), width_ratios=(1.0, 1.15))
+    axes[0].scatter(data["y_m"] / KM, data["x_m"] / KM, color=colours, **DOT)
+    _orbit_axes(axes[0])
+    axes[1].scatter(data["time_min"], data["delta_v_m_s"], color=colours, **DOT)
+    axes[1].set(xlabel="manoeuvre time [min]", ylabel=r"$\Delta v$ [m/s]")
+    axes[1].set_ylim(0, None)
+    axes[1].set_xlim(0, None)
+    for name, panel in zip("ab", axes, strict=True):
+        panel.set_title(f"({name})", loc="left")
+    return figure, axes
+
+
+def _orbit_axes(axes: Axes) -> None:
+    axes.plot(0.0, 0.0, "+", color=BLACK, ms=8)
+    axes.set(xlabel="$y$, along the velocity [km]", ylabel="$x$, away from the Earth [km]")
+    axes.set_aspect("equal", adjustable="datalim")
+    # As in the document: the Earth lies above.
+    axes.invert_yaxis()
+
+
+def _legend(axes: Axes, entries: Sequence[tuple]) -> None:
+    axes.legend(handles=[_handle(colour, label) for label, colour in entries], handletextpad=0.1)
+
+
+def _handle(colour, label: str) -> Line2D:
+    return Line2D([], [], marker="o", ls="", ms=4.5, color=colour, label=label)
+
+
+def _end(values: pd.Series) -> float:
+    """Where an axis ends: at the data, or before the few that would squeeze all others."""
+    if values.empty:
+        return 1.0
+    most, usual = float(values.max()), 1.6 * float(values.quantile(0.98))
+    return 1.04 * min(most, usual)

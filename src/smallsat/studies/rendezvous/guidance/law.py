@@ -1,0 +1,225 @@
+"""The guidance law's settings as plain data: one record a parameter set, for the compiled loop."""
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
+from smallsat.studies.rendezvous.model.prediction import terminal_weight, transition
+
+PHASES = ("far", "mid", "final")
+RENDEZVOUS, APPROACH, DOCKING = 0, 1, 2
+# How far a phase's states reach, in the largest horizon's control, sets the unit of length.
+HARD_WEIGHT = 100.0
+
+# Readings of what the document leaves open.
+SHORTEST, NATURAL, CURRENT = 0, 1, 2  # planes' direction where the axis is out of reach
+CONE_ONLY, DISTANCE, ALONG_AXIS = 0, 1, 2  # what the end of a phase asks for
+AT_START, AT_HORIZON, AT_STAGE = 0, 1, 2  # when a rotating reference or cone is taken
+
+SETTINGS = np.dtype(
+    [
+        ("horizons", np.int64, (3,)),
+        ("sample_times", float, (3,)),
+        ("transitions", float, (3, 6, 6)),  # scaled
+        ("scales", float, (3, 6)),
+        ("state_hessians", float, (3, 6)),
+        ("terminal_hessians", float, (3, 6, 6)),
+        ("control_hessians", float, (3, 3)),
+        ("norm_weights", float, (6,)),  # of the far range's 1-norm, scaled; zero: quadratic
+        ("norm_terminal_weights", float, (6,)),
+        ("norm_control_weights", float, (3,)),
+        ("penalties", float, (3,)),
+        ("hard_weights", float, (3,)),
+        ("control_bounds", float, (3,)),
+        ("speed_bound", float),
+        ("tangents", float, (3,)),
+        ("axis", float, (3,)),
+        ("rotation_rate", float),
+        ("port", float),
+        ("set_points", float, (2,)),
+        ("keep_out", float),
+        ("overshoot", float),
+        ("plane_rate", float),
+        ("plane_rule", np.int64),
+        ("switch_kinds", np.int64, (3,)),
+        ("switch_distances", float, (3,)),
+        ("set_point_time", np.int64),
+        ("terminal_cone_time", np.int64),
+        ("reference_moves", np.int64),
+        ("time_limit", float),
+        ("drifts_before", float, (3, 6, 6)),  # truth in metres: until a delayed control acts
+        ("drifts_after", float, (3, 6, 6)),
+        ("predictions_before", float, (3, 6, 6)),  # the law's own, to make up for the delay
+        ("delays", float, (3,)),
+    ],
+    align=True,
+)
+
+
+@dataclass(frozen=True)
+class Law:
+    """A guidance law, in SI units; triples are far range, mid range, final phase.
+
+    Attributes
+    ----------
+    mean_motion
+        Of the target, rad/s.
+    sample_times, horizons
+        s; steps.
+    state_weights, control_weights
+        Diagonals of Q, (6,) each, and of R, (3,) each.
+    terminal_weights
+        Qf as a multiple of Q; zero stands for the Riccati solution.
+    penalties
+        Weight of the cone penalty, per metre.
+    cone_angles
+        Half angles, rad.
+    control_bounds
+        Largest velocity change of a step and axis, m/s.
+    keep_out, overshoot, end_distance
+        r1, r2, r3, m.
+    set_points
+        On the axis, m from the target; zero: the target itself.
+    switches
+        What ends each phase: ``CONE_ONLY``, or inside the cone and at most so far from the target
+        (``DISTANCE``) or along the axis (``ALONG_AXIS``); the last phase ends that near the port.
+    switch_distances
+        m.
+    speed_bound
+        Of each component in the final phase, m/s.
+    axis
+        Approach axis at the start, unit vector.
+    rotation_rate
+        Of the target about z, rad/s.
+    port
+        Of docking, m from the target on the axis.
+    plane_rate
+        Largest rotation rate of the keep-out plane in mean motions.
+    plane_rule
+        ``SHORTEST``, ``NATURAL`` or ``CURRENT``.
+    norm_weights, norm_terminal_weights, norm_control_weights
+        Of the far range's 1-norm cost (2.10): diagonals (6,), (6,), (3,); ``None``: quadratic.
+    set_point_time, terminal_cone_time
+        When a rotating set point and the far range's cone and planes are taken.
+    reference_moves
+        Whether a rotating reference has the velocity of its rotation.
+    prediction
+        Continuous matrix of the prediction model; ``None``: Clohessy-Wiltshire.
+    delay
+        s from a step's start until its control acts.
+    delay_known
+        Whether the law predicts its state over the delay.
+    time_limit
+        s.
+    """
+
+    mean_motion: float
+    sample_times: tuple[float, float, float]
+    horizons: tuple[int, int, int]
+    state_weights: np.ndarray
+    control_weights: np.ndarray
+    penalties: tuple[float, float, float]
+    cone_angles: tuple[float, float, float]
+    control_bounds: tuple[float, float, float]
+    keep_out: float
+    overshoot: float
+    set_points: tuple[float, float]
+    switch_distances: tuple[float, float, float]
+    speed_bound: float
+    axis: tuple[float, float, float]
+    rotation_rate: float = 0.0
+    port: float = 0.5
+    plane_rate: float = 1.0
+    plane_rule: int = NATURAL
+    switches: tuple[int, int, int] = (ALONG_AXIS, DISTANCE, DISTANCE)
+    terminal_weights: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    norm_weights: np.ndarray | None = None
+    norm_terminal_weights: np.ndarray | None = None
+    norm_control_weights: np.ndarray | None = None
+    set_point_time: int = AT_START
+    terminal_cone_time: int = AT_HORIZON
+    reference_moves: bool = True
+    prediction: np.ndarray | None = None
+    delay: float = 0.0
+    delay_known: bool = False
+    time_limit: float = 12000.0
+
+    def with_(self, **changes: Any) -> "Law":
+        """The same law with some attributes changed."""
+        return replace(self, **changes)
+
+
+def settings(laws: list[Law]) -> np.ndarray:
+    """One `SETTINGS` record a law, with scaled matrices.
+
+    Positions are scaled by the way that a full control makes over the horizon, velocities by the
+    control's bound, costs by the terminal weight.
+    """
+    records = np.zeros(len(laws), SETTINGS)
+    for record, law in zip(records, laws, strict=True):
+        _fill(record, law)
+    return records
+
+
+def _fill(record: Any, law: Law) -> None:
+    true_matrix = rate_matrix(law.mean_motion)
+    matrix = true_matrix if law.prediction is None else law.prediction
+    reaches = (2.0 * law.keep_out + 1000.0, law.keep_out, law.overshoot)
+    for phase in range(3):
+        duration, horizon = law.sample_times[phase], law.horizons[phase]
+        bound = law.control_bounds[phase]
+        length = bound * duration * horizon
+        scale = np.array([length] * 3 + [bound] * 3)
+        step = transition(matrix, duration)
+        weights, control = np.asarray(law.state_weights)[phase], law.control_weights[phase]
+        if law.terminal_weights[phase] > 0.0:
+            terminal = law.terminal_weights[phase] * np.diag(weights)
+        else:
+            terminal = terminal_weight(step, weights, control)
+        terminal = 2.0 * terminal * np.outer(scale, scale)
+        cost = 1.0 / np.abs(terminal).max()
+        record["horizons"][phase] = horizon
+        record["sample_times"][phase] = duration
+        record["transitions"][phase] = step * scale[None, :] / scale[:, None]
+        record["scales"][phase] = scale
+        record["state_hessians"][phase] = 2.0 * cost * weights * scale**2
+        record["terminal_hessians"][phase] = cost * terminal
+        record["control_hessians"][phase] = 2.0 * cost * np.asarray(control) * bound**2
+        record["penalties"][phase] = law.penalties[phase] * length * cost
+        record["hard_weights"][phase] = HARD_WEIGHT * max(reaches[phase] / length, 1.0)
+        record["control_bounds"][phase] = bound
+        record["tangents"][phase] = np.tan(law.cone_angles[phase])
+        record["switch_kinds"][phase] = law.switches[phase]
+        record["switch_distances"][phase] = law.switch_distances[phase]
+        record["drifts_before"][phase] = transition(true_matrix, law.delay)
+        record["drifts_after"][phase] = transition(true_matrix, duration - law.delay)
+        known = law.delay if law.delay_known else 0.0
+        record["predictions_before"][phase] = transition(matrix, known)
+        record["delays"][phase] = law.delay
+    if law.norm_weights is not None:
+        assert law.norm_terminal_weights is not None and law.norm_control_weights is not None
+        scale = record["scales"][0]
+        norms = law.norm_weights * scale
+        terminal = law.norm_terminal_weights * scale
+        control = law.norm_control_weights * law.control_bounds[0]
+        cost = 1.0 / max(terminal.max(), norms.max())
+        record["norm_weights"] = cost * norms
+        record["norm_terminal_weights"] = cost * terminal
+        record["norm_control_weights"] = cost * control
+        record["penalties"][0] = law.penalties[0] * scale[0] * cost
+        record["hard_weights"][0] = HARD_WEIGHT * law.horizons[0]
+    record["speed_bound"] = law.speed_bound
+    record["axis"] = law.axis
+    record["rotation_rate"] = law.rotation_rate
+    record["port"] = law.port
+    record["set_points"] = law.set_points
+    record["keep_out"] = law.keep_out
+    record["overshoot"] = law.overshoot
+    record["plane_rate"] = law.plane_rate * law.mean_motion
+    record["plane_rule"] = law.plane_rule
+    record["set_point_time"] = law.set_point_time
+    record["terminal_cone_time"] = law.terminal_cone_time
+    record["reference_moves"] = law.reference_moves
+    record["time_limit"] = law.time_limit

@@ -1,0 +1,178 @@
+"""The same programs, sampled from closed loops, solved by all back ends."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from smallsat.optimal_control.riccati_interior_point import Program
+from smallsat.studies.rendezvous.guidance.law import PHASES, Law, settings
+from smallsat.studies.rendezvous.guidance.phase_programs import program_room, write_program
+from smallsat.studies.rendezvous.methods import qp_solvers as back_ends
+from smallsat.studies.rendezvous.methods.qp_solvers import Answer
+from smallsat.studies.rendezvous.simulation.closed_loop import TOLERANCE, manoeuvres
+
+
+@dataclass(frozen=True)
+class Sample:
+    """One program of a closed loop: which kind, the program, its stages, start and hard weight."""
+
+    kind: str
+    program: Program
+    stages: int
+    start: np.ndarray
+    hard_weight: float
+
+
+Solve = Callable[[Sample], Answer]
+
+
+def _sparse(solve: Callable[..., Answer], tolerance: float) -> Solve:
+    return lambda sample: solve(
+        back_ends.sparse_program(sample.program, sample.stages, sample.start), tolerance
+    )
+
+
+def _staged(solve: Callable[..., Answer], tolerance: float) -> Solve:
+    return lambda sample: solve(sample.program, sample.stages, sample.start, tolerance)
+
+
+# Each at a tolerance at which it still converges as a rule; OSQP's is its usual one.
+BACK_ENDS: dict[str, Solve] = {
+    "stage-wise": _staged(back_ends.own, TOLERANCE),
+    "HPIPM": _staged(back_ends.hpipm, 1e-8),
+    "PIQP": _sparse(back_ends.piqp, 1e-9),
+    "Clarabel": _sparse(back_ends.clarabel, 1e-8),
+    "DAQP": lambda sample: back_ends.daqp(
+        sample.program, sample.stages, sample.start, sample.hard_weight, 1e-9
+    ),
+    "OSQP": _sparse(back_ends.osqp, 1e-4),
+}
+NOT_FOR_LP = {"HPIPM", "DAQP"}
+
+
+def samples(laws: dict[str, Law], starts: np.ndarray, count: int) -> list[Sample]:
+    """Programs at steps spread evenly over the closed loops of each law from all starts.
+
+    Parameters
+    ----------
+    laws
+        By name; a law with a 1-norm cost gives its far range only, as a kind of its own.
+    starts
+        Relative states, (M, 6), m and m/s.
+    count
+        Of programs of each kind, at most.
+    """
+    found = []
+    for name, law in laws.items():
+        record = settings([law])[0]
+        linear = law.norm_weights is not None
+        phases = (0, 0) if linear else (0, 2)
+        flown = manoeuvres([law], starts, phases=phases, with_steps=True)
+        for phase in range(phases[1] + 1):
+            steps = [
+                (r.state[k], r.time[k])
+                for r in flown.records
+                for k in np.flatnonzero(r.phase == phase)
+            ]
+            # Of a phase that no manoeuvre comes to there are none.
+            chosen = np.unique(np.linspace(0, max(len(steps) - 1, 0), count).astype(int))
+            chosen = chosen[: len(steps)]
+            for state, time in (steps[k] for k in chosen):
+                room = program_room(int(record["horizons"][phase]))
+                program, _ = write_program(record, phase, state, time, room)
+                found.append(
+                    Sample(
+                        f"{PHASES[phase]} ({name})",
+                        program,
+                        int(record["horizons"][phase]),
+                        state / record["scales"][phase],
+                        float(record["hard_weights"][phase]),
+                    )
+                )
+    return found
+
+
+def compare(given: list[Sample]) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Answers of all back ends, one row a program and back end; and their seconds.
+
+    Returns
+    -------
+    pandas.DataFrame
+        ``program``, ``kind``, ``back_end``, ``solved``, ``iterations``; ``cost_error``, by how much
+        the cost exceeds the least of the other back ends', as a share of what the best control
+        saves; ``control_error``, the first control's largest difference from that one's, in bounds.
+    pandas.DataFrame
+        ``program``, ``kind``, ``back_end``, ``seconds``.
+    """
+    rows, seconds = [], []
+    if given:
+        BACK_ENDS["stage-wise"](given[0])  # compiles
+    for number, sample in enumerate(given):
+        answers = {
+            name: solve(sample)
+            for name, solve in BACK_ENDS.items()
+            if not (name in NOT_FOR_LP and sample.program.control_norm[0] > 0.0)
+        }
+        costs = {
+            name: back_ends.cost(sample.program, sample.stages, sample.start, answer.controls)
+            for name, answer in answers.items()
+            if answer.solved
+        }
+        saved = _cost_at_rest(sample) - min(costs.values(), default=np.nan)
+        for name, answer in answers.items():
+            control_error = cost_error = np.nan
+            others = [other for other in costs if other != name]
+            if answer.solved and others:
+                best = min(others, key=costs.__getitem__)
+                cost_error = max(costs[name] - costs[best], 0.0) / saved
+                difference = answer.controls[0] - answers[best].controls[0]
+                control_error = float(np.abs(difference).max())
+            key = {"program": number, "kind": sample.kind, "back_end": name}
+            rows.append(
+                key
+                | {
+                    "solved": answer.solved,
+                    "iterations": answer.iterations,
+                    "control_error": control_error,
+                    "cost_error": cost_error,
+                }
+            )
+            seconds.append(key | {"seconds": answer.seconds})
+    return pd.DataFrame(rows), pd.DataFrame(seconds)
+
+
+def _cost_at_rest(sample: Sample) -> float:
+    controls = np.zeros((sample.stages, 3))
+    return back_ends.cost(sample.program, sample.stages, sample.start, controls)
+
+
+def summary(answers: pd.DataFrame) -> pd.DataFrame:
+    """By kind and back end: programs, share solved, iterations and errors of the solved ones."""
+    solved = answers[answers["solved"]]
+    groups = solved.groupby(["kind", "back_end"], sort=False)
+    table = groups.agg(
+        iterations_median=("iterations", "median"),
+        iterations_most=("iterations", "max"),
+        control_error_median=("control_error", "median"),
+        control_error_most=("control_error", "max"),
+        cost_error_most=("cost_error", "max"),
+    )
+    every = answers.groupby(["kind", "back_end"], sort=False)["solved"]
+    table.insert(0, "programs", every.size())
+    table.insert(1, "solved_share", every.mean())
+    for column in table.filter(like="_error_"):
+        table[column] = [float(f"{value:.1e}") for value in table[column]]
+    return table.reset_index()
+
+
+def seconds_summary(seconds: pd.DataFrame) -> pd.DataFrame:
+    """Median and 99th percentile of the seconds by kind and back end."""
+    groups = seconds.groupby(["kind", "back_end"], sort=False)["seconds"]
+    return (
+        groups.quantile(np.array([0.5, 0.99]))
+        .unstack()
+        .reset_index()
+        .set_axis(["kind", "back_end", "median_s", "percentile_99_s"], axis=1)
+    )

@@ -1,0 +1,236 @@
+"""The cases of chapters 4 and 5 and appendix A, and of what goes beyond them, by group.
+
+A case is the baseline guidance law with some attributes changed, flown over some of the phases. A
+case that does not begin with the first phase begins where the baseline ended the phase before.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from smallsat.config import Config
+from smallsat.studies.rendezvous.guidance.law import Law
+from smallsat.studies.rendezvous.model.prediction_j2 import schweighart_sedwick
+from smallsat.studies.rendezvous.parameters import law
+from smallsat.studies.rendezvous.simulation.disturbances import disturbances, truth_radius
+from smallsat.studies.rendezvous.simulation.disturbed_loop import Disturbances
+
+PHASES = ("rendezvous", "approach", "docking")
+# Names that others look for.
+BASELINE, NO_SET_POINT, LP = "baseline", "no set point", "LP"
+AS_DOCUMENTED, UNDISTURBED, FILTERED = "as documented", "undisturbed", "Kalman filter"
+CLOHESSY_WILTSHIRE, SCHWEIGHART_SEDWICK = "Clohessy-Wiltshire", "Schweighart-Sedwick"
+MINUTE = 60.0
+
+
+@dataclass(frozen=True)
+class Case:
+    """One case of a study.
+
+    Attributes
+    ----------
+    name
+        Unique within its group.
+    law
+        The guidance law flown.
+    phases
+        First and last phase flown, 0 to 2.
+    world
+        What the law does not know; ``None``: the linear motion that it predicts.
+    runs
+        From each initial state.
+    """
+
+    name: str
+    law: Law
+    phases: tuple[int, int] = (0, 2)
+    world: Disturbances | None = None
+    runs: int = 1
+
+
+def sweep_case(horizon: int, sample_time: float) -> str:
+    """Name of a sweep's case."""
+    return f"N {horizon}, Ts {sample_time:g} s"
+
+
+def weight_case(factor: float, phase: str) -> str:
+    """Name of a case with another weight of the control in one phase."""
+    return f"R times {factor:g}, {phase}"
+
+
+def weighted_sweep_case(factor: float, sample_time: float) -> str:
+    """Name of a case with another weight of the control and another sample time."""
+    return f"R times {factor:g}, Ts {sample_time:g} s"
+
+
+def delay_case(delay: float, known: bool) -> str:
+    """Name of a case in which the control acts late."""
+    return f"delay {delay:g} s, {'predicted' if known else 'not predicted'}"
+
+
+def prediction_case(model: str, inclination: float) -> str:
+    """Name of a case with a prediction model, over an orbit's inclination in degrees."""
+    return f"{model}, {inclination:g} deg"
+
+
+def cases(section: Config, group: str) -> list[Case]:
+    """The cases of a group, in the order of its results."""
+    return GROUPS[group](section)
+
+
+def base(section: Config, case: str = "v-bar") -> Law:
+    """The law of a case of chapter 3 with the time limit of the studies."""
+    limit = MINUTE * section["studies"]["time_limit_min"]
+    return law(section, case).with_(time_limit=limit)
+
+
+def in_phase(values: tuple[Any, ...], phase: int, value: Any) -> tuple[Any, ...]:
+    """A triple of a law with one phase's entry replaced."""
+    return (*values[:phase], value, *values[phase + 1 :])
+
+
+def _sampled(given: Law, phase: int, sample_time: float) -> Law:
+    return replace(given, sample_times=in_phase(given.sample_times, phase, float(sample_time)))
+
+
+def _weighted(given: Law, phase: int, factor: float) -> Law:
+    weights = np.array(given.control_weights, dtype=float)
+    weights[phase] *= factor
+    return replace(given, control_weights=weights)
+
+
+def _domain(section: Config) -> list[Case]:
+    """Section 4.1 and the appendix: the whole manoeuvre, and two other far-range costs."""
+    return [
+        Case(BASELINE, base(section)),
+        Case(NO_SET_POINT, base(section, "no-set-point")),
+        Case(LP, base(section, "lp")),
+    ]
+
+
+def _sweep(phase: int) -> Callable[[Config], list[Case]]:
+    """Sections 4.2 to 4.4: horizons and sample times of one phase, that phase alone."""
+
+    def make(section: Config) -> list[Case]:
+        given, settings = base(section), section["studies"][PHASES[phase]]
+        return [
+            Case(
+                sweep_case(horizon, sample_time),
+                replace(
+                    _sampled(given, phase, sample_time),
+                    horizons=in_phase(given.horizons, phase, horizon),
+                ),
+                (phase, phase),
+            )
+            for horizon in settings["horizons"]
+            for sample_time in settings["sample_times_s"]
+        ]
+
+    return make
+
+
+def _weights(section: Config) -> list[Case]:
+    """Section 4.5: other weights of the control, and whether sample times then compare alike."""
+    given, factors = base(section), section["studies"]["weights"]["factors"]
+    times = section["studies"]["rendezvous"]["sample_times_s"]
+    whole = [
+        Case(weight_case(factor, name), _weighted(given, phase, factor))
+        for phase, name in enumerate(PHASES)
+        for factor in factors
+    ]
+    sampled = [
+        Case(
+            weighted_sweep_case(factor, sample_time),
+            _sampled(_weighted(given, 0, factor), 0, sample_time),
+            (0, 0),
+        )
+        for factor in (factors[0], factors[-1])
+        for sample_time in (times[0], times[-1])
+    ]
+    return whole + sampled
+
+
+def _delay(section: Config) -> list[Case]:
+    """Section 5.5: the control acts late, known to the prediction or not."""
+    given = base(section)
+    return [
+        Case(delay_case(delay, known), given.with_(delay=float(delay), delay_known=known))
+        for delay in section["studies"]["delay"]["delays_s"]
+        for known in (False, True)
+    ]
+
+
+def _prediction(section: Config) -> list[Case]:
+    """Section 3.7: J2 in the prediction, over inclinations, in the field of degree 8."""
+    found = []
+    for inclination in section["studies"]["prediction"]["inclinations_deg"]:
+        tilted = section | {"truth": section["truth"] | {"inclination_deg": inclination}}
+        given = base(tilted)
+        world = disturbances(tilted, given, thrust_error=False, measurement_error=False)
+        matrix = schweighart_sedwick(
+            given.mean_motion, float(np.radians(inclination)), truth_radius(given)
+        )
+        for model, flown in (
+            (CLOHESSY_WILTSHIRE, given),
+            (SCHWEIGHART_SEDWICK, given.with_(prediction=matrix)),
+        ):
+            found.append(Case(prediction_case(model, inclination), flown, world=world))
+    return found
+
+
+def _robustness(section: Config) -> list[Case]:
+    """Chapter 5, and with its disturbances one by one or with a filter."""
+    given, settings = base(section), section["studies"]["robustness"]
+    few = settings["variant_runs"]
+    return [
+        Case(UNDISTURBED, given, world=disturbances(section, given, False, False)),
+        Case(AS_DOCUMENTED, given, world=disturbances(section, given), runs=settings["runs"]),
+        Case(
+            "thrust error alone",
+            given,
+            world=disturbances(section, given, measurement_error=False),
+            runs=few,
+        ),
+        Case(
+            "measurement error alone",
+            given,
+            world=disturbances(section, given, thrust_error=False),
+            runs=few,
+        ),
+        Case(FILTERED, given, world=disturbances(section, given, filtered=True), runs=few),
+        Case(
+            "burns in place of impulses",
+            given,
+            world=disturbances(section, given, burns=True),
+            runs=few,
+        ),
+    ]
+
+
+def _passages(section: Config) -> list[Case]:
+    """What the docking distance and the time limit decide: the closest and the longest of them."""
+    settings = section["studies"]["passages"]
+    given = base(section)
+    farthest = given.with_(
+        switch_distances=in_phase(given.switch_distances, 2, min(settings["distances_m"])),
+        time_limit=MINUTE * max(settings["limits_min"]),
+    )
+    return [
+        Case("passages", farthest, world=disturbances(section, farthest), runs=settings["runs"])
+    ]
+
+
+# Each group is one table of results, flown in shards.
+GROUPS: dict[str, Callable[[Config], list[Case]]] = {
+    "domain": _domain,
+    "rendezvous-sweep": _sweep(0),
+    "approach-sweep": _sweep(1),
+    "docking-sweep": _sweep(2),
+    "weights": _weights,
+    "delay": _delay,
+    "prediction": _prediction,
+    "robustness": _robustness,
+    "passages": _passages,
+}

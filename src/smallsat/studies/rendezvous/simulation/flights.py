@@ -1,0 +1,96 @@
+"""The five manoeuvres of Section 3.6 flown by the configured law, as tidy tables."""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from smallsat.config import Config
+from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
+from smallsat.results import write_table
+from smallsat.studies.rendezvous.guidance.law import PHASES, Law
+from smallsat.studies.rendezvous.model.prediction import transition
+from smallsat.studies.rendezvous.parameters import CASES, law, start_state
+from smallsat.studies.rendezvous.simulation.closed_loop import Steps, manoeuvres
+from smallsat.studies.rendezvous.simulation.delta_v import READINGS, summed
+
+STATE = ["x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s"]
+CHANGE = ["dvx_m_s", "dvy_m_s", "dvz_m_s"]
+# Pieces of a step in which the path between samples is looked at.
+PIECES = 10
+
+
+def fly_cases(section: Config, folder: Path) -> None:
+    """Fly the cases and write ``flights``, ``paths`` and ``phases``.
+
+    ``flights.parquet`` has a row a step (state before the control, velocity change, status) and a
+    last row where the manoeuvre ended, ``paths.parquet`` the motion between samples, and
+    ``phases.csv`` steps, times and delta-v of each phase.
+    """
+    laws = {case: law(section, case) for case in CASES}
+    flown = manoeuvres(
+        list(laws.values()), np.tile(start_state(section), (len(laws), 1)), with_steps=True
+    )
+    flights, paths, phases = [], [], []
+    for number, (case, given) in enumerate(laws.items()):
+        steps, end = flown.records[number], flown.ends[number]
+        # A manoeuvre that does not dock ends in the phase that it is in.
+        flights.append(_flight(case, steps, end[steps.phase[-1]], given))
+        paths.append(_path(case, steps, given))
+        for phase, name in enumerate(PHASES):
+            changes = steps.impulse[steps.phase == phase]
+            phases.append(
+                {
+                    "flight": case,
+                    "phase": name,
+                    "ended": bool(flown.docked[number])
+                    or len(steps.impulse[steps.phase > phase]) > 0,
+                    "steps": len(changes),
+                    "time_s": len(changes) * given.sample_times[phase],
+                    **{reading: summed(changes, reading) for reading in READINGS},
+                    "softened": int(flown.softened[number, phase]),
+                    "outside_at_start": int(flown.outside[number, phase]),
+                    "failed": int(flown.failed[number, phase]),
+                }
+            )
+    write_table(pd.concat(flights, ignore_index=True), folder / "flights.parquet")
+    write_table(pd.concat(paths, ignore_index=True), folder / "paths.parquet")
+    write_table(pd.DataFrame(phases), folder / "phases.csv")
+
+
+def _flight(case: str, steps: Steps, end: np.ndarray, given: Law) -> pd.DataFrame:
+    table = pd.DataFrame(steps.state, columns=STATE)
+    table[CHANGE] = steps.impulse
+    table.insert(0, "flight", case)
+    table.insert(1, "phase", [PHASES[phase] for phase in steps.phase])
+    table.insert(2, "time_s", steps.time)
+    table["status"] = steps.status
+    table["softened"] = steps.softened
+    last = {"flight": case, "phase": "end", "time_s": _end_time(steps, given)}
+    last |= dict(zip(STATE, end, strict=True)) | dict.fromkeys(CHANGE, 0.0)
+    last |= {"status": 0, "softened": 0}
+    return pd.concat([table, pd.DataFrame([last])], ignore_index=True)
+
+
+def _end_time(steps: Steps, given: Law) -> float:
+    return float(steps.time[-1] + given.sample_times[int(steps.phase[-1])])
+
+
+def _path(case: str, steps: Steps, given: Law) -> pd.DataFrame:
+    """States at `PIECES` places of each step, the first right after the control."""
+    matrix = rate_matrix(given.mean_motion)
+    parts = []
+    for phase, name in enumerate(PHASES):
+        chosen = steps.phase == phase
+        if not chosen.any():
+            continue
+        after = steps.state[chosen].copy()
+        after[:, 3:] += steps.impulse[chosen]
+        for piece in range(PIECES + 1):
+            duration = given.sample_times[phase] * piece / PIECES
+            part = pd.DataFrame(after @ transition(matrix, duration).T, columns=STATE)
+            part.insert(0, "flight", case)
+            part.insert(1, "phase", name)
+            part.insert(2, "time_s", steps.time[chosen] + duration)
+            parts.append(part)
+    return pd.concat(parts).sort_values(["time_s", "phase"], kind="stable")

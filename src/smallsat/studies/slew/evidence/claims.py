@@ -1,0 +1,419 @@
+"""Predicates of the document's prose claims.
+
+The signature is that of `smallsat.evidence.claims.Predicate`: the whole configuration and the
+folder with the study's results.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from smallsat.config import Config
+from smallsat.evidence.claims import Judgement, judged
+from smallsat.results import read_table
+from smallsat.studies.slew.evidence.observations import short_of, target_yaw
+from smallsat.studies.slew.methods.bound import impossible, largest_disturbance, needed, reach
+from smallsat.studies.slew.methods.environment_study import crossover_km
+from smallsat.studies.slew.methods.minimum_time import eigenaxis_time
+from smallsat.studies.slew.model.simulation import angles_deg
+from smallsat.studies.slew.parameters import Parameters, panels, parameters
+
+# Printed literals that a predicate confronts with ours.
+PRINTED_OMEGA_Z = {"torque-optimal": 0.56, "eigenaxis": 1.07}  # deg/s, 180 deg
+PRINTED_YAW_DEG, PRINTED_ROLL_DEG, PRINTED_PITCH_DEG = -179.1, 1.56, 9.56
+PRINTED_EIGENAXIS_DEG = 160.6
+PRINTED_FINAL_PCT = {"x": 0.35, "y": 3.32, "z": 11.9}
+PRINTED_RATES_DEG_S = {"x": (0.04, 0.005), "y": (0.17, 0.005), "z": (0.56, 0.005)}
+PRINTED_PEAK_PCT = 27.9  # z, 90 deg torque-optimal
+
+INDEPENDENT_MISS = 1e-6
+VISIBLE_DEG = 1.0
+SMALL_DEG = 0.005
+SAME_MINIMUM_S = 0.1
+ROUNDING = 1e-12
+# Costs are equal to this: what the smoothing and the pieces of a plan leave.
+SAME_COST = 1e-3
+
+
+def _least(results: Path, case: str) -> float:
+    """Least time, s, of a case; a LookupError where none was found."""
+    rows = read_table(results / "minimum-times.csv").set_index("case")
+    if not rows["converged"].to_dict()[case]:
+        raise LookupError(f"no least time of {case}")
+    return float(rows["duration_s"].to_dict()[case])
+
+
+def _turn_about_z(given: Parameters, case: str) -> None:
+    """Raise a LookupError unless a turn goes from no angles to a yaw: the claim is about that."""
+    along = np.r_[given.initial[:2], given.targets[case][:2]]
+    if np.abs(along).max() > ROUNDING or abs(given.initial[2]) > ROUNDING:
+        raise LookupError("the turn is not about the body's z axis")
+
+
+def not_in_the_given_time(config: Config, results: Path) -> Judgement:
+    """180 deg in 100 s: a bound without an optimiser, and the least time of two methods."""
+    given = parameters(config["slew"])
+    duration, angle = given.duration, np.degrees(needed(given, "half"))
+    name = given.names["half"]
+    least = _least(results, f"{name}, wheels and gravity gradient")
+    answers = read_table(results / "infeasible.csv")
+    if answers["hard_converged"].any() or least <= duration:
+        return Judgement(
+            "fails",
+            f"the least time found is {least:.3f} s, and the solver answers {duration:g} s with "
+            f"{', '.join(answers['hard_status'])}",
+        )
+    if not impossible(given, "half", duration):
+        return Judgement(
+            "undecided",
+            f"the bound leaves {duration:g} s possible, and no plan was found in less than "
+            f"{least:.3f} s",
+        )
+    outer = largest_disturbance(given, duration)
+    path = np.degrees(reach(given.inertia, given.torque, duration, disturbance=outer))
+    bound = read_table(results / "bound.csv").set_index("model")["bound_s"]
+    return Judgement(
+        "holds",
+        f"from rest to rest the wheels can move the body's x axis along at most {path:.1f} deg of "
+        f"the sphere in {duration:g} s, whatever the path, and it has to move by {angle:g} deg: no "
+        f"plan can exist below {bound['wheels, gravity gradient']:.2f} s. The least time found is "
+        f"{least:.3f} s, and the solver refuses {duration:g} s on every mesh",
+    )
+
+
+def valid_trajectory_at_limits(config: Config, results: Path) -> Judgement:
+    """A valid trajectory for the 180 deg turn in 100 s."""
+    judgement = not_in_the_given_time(config, results)
+    row = read_table(results / "infeasible.csv").iloc[-1]
+    if judgement.outcome == "undecided":
+        return judgement
+    if judgement.outcome == "fails":
+        return Judgement("holds", f"a valid one exists: {judgement.evidence}")
+    miss = np.degrees(np.sqrt(row["miss"]))
+    duration = config["slew"]["manoeuvre"]["duration_s"]
+    return Judgement(
+        "fails",
+        f"no valid one exists: {judgement.evidence}. The least infeasible plan misses its end by "
+        f"{miss:.1f} deg in attitude and rate together (rate times {duration:g} s, root of "
+        f"squares)",
+    )
+
+
+def printed_run_misses(config: Config, results: Path) -> Judgement:
+    """The printed final momentum is J w of the printed final rates."""
+    given = parameters(config["slew"])
+    texts, fits = [], []
+    for i, axis in enumerate("xyz"):
+        rate, half = PRINTED_RATES_DEG_S[axis]
+        share = 100.0 * given.inertia[i, i] * np.radians(rate) / given.momentum
+        width = 100.0 * given.inertia[i, i] * np.radians(half) / given.momentum
+        fits.append(abs(share - PRINTED_FINAL_PCT[axis]) <= width + 0.05)
+        texts.append(f"{share:.2f} ({PRINTED_FINAL_PCT[axis]}) %")
+    x, y, z = (PRINTED_FINAL_PCT[a] / 100.0 * given.momentum for a in "xyz")
+    path = np.degrees(reach(given.inertia, given.torque, given.duration, (x, y, z)))
+    return judged(
+        all(fits),
+        f"J w of the printed rates is {', '.join(texts)}, printed values in brackets: equal within "
+        f"the digits. With so much rate left the bound allows {path:.0f} deg, so the printed run "
+        f"is possible as a run that ends short of its target, not as one that meets it",
+    )
+
+
+def yaw_error_significantly_lower(config: Config, results: Path) -> Judgement:
+    """180 deg: the yaw error alone, and the whole attitude error, from the printed angles."""
+    yaw = 180.0 - abs(PRINTED_YAW_DEG)
+    whole = np.sqrt(yaw**2 + PRINTED_ROLL_DEG**2 + PRINTED_PITCH_DEG**2)
+    eigenaxis = 180.0 - PRINTED_EIGENAXIS_DEG
+    return judged(
+        yaw < eigenaxis / 2.0 and whole < eigenaxis,
+        f"from the printed angles: {yaw:.1f} deg in yaw and about {whole:.1f} deg in all, against "
+        f"{eigenaxis:.1f} deg of the eigenaxis law; neither reaches its target",
+    )
+
+
+def omega_z_nearly_half(config: Config, results: Path) -> Judgement:
+    """180 deg: the residual rates as printed."""
+    ratio = PRINTED_OMEGA_Z["torque-optimal"] / PRINTED_OMEGA_Z["eigenaxis"]
+    return judged(abs(ratio - 0.5) < 0.05, f"the printed rates have the ratio {ratio:.2f}")
+
+
+def eigenaxis_is_not_fastest(config: Config, results: Path) -> Judgement:
+    """Least times against full torque about the eigenaxis alone."""
+    given = parameters(config["slew"])
+    texts, faster = [], []
+    for case, name in given.names.items():
+        _, moment = _body_axis(given, case)
+        least = _least(results, f"{name}, wheels")
+        angle = np.radians(given.angle_deg(case))
+        alone = eigenaxis_time(angle, moment, given.torque, given.momentum)
+        faster.append(least < alone - 1.0)
+        texts.append(f"{name}: {least:.2f} s against {alone:.2f} s")
+    return judged(all(faster), "; ".join(texts))
+
+
+def _body_axis(given: Parameters, case: str) -> tuple[str, float]:
+    """The body axis that a turn is about and its moment, kg m^2.
+
+    A LookupError where it is none, or no principal axis: a turn about it alone is then no motion by
+    its own wheel.
+    """
+    place = int(np.argmax(np.abs(given.axis(case))))
+    others = np.delete(np.r_[given.axis(case), given.inertia[place]], [place, 3 + place])
+    if np.abs(others).max() > ROUNDING:
+        raise LookupError("the turn is not about a principal axis along a wheel")
+    return "xyz"[place], float(given.inertia[place, place])
+
+
+def nutation_saves_torque(config: Config, results: Path) -> Judgement:
+    """90 deg: whether motion about x and y lowers the torque used."""
+    given = parameters(config["slew"])
+    plans = read_table(results / "plans.csv").set_index("plan")
+    row = plans.loc[f"{given.names['quarter']}, no gravity gradient, segments"]
+    axis, moment = _body_axis(given, "quarter")
+    angle = np.radians(given.angle_deg("quarter"))
+    alone = eigenaxis_time(angle, moment, given.torque, given.momentum)
+    if not row["held_converged"] == True or alone > given.duration:  # noqa: E712
+        raise LookupError("there is no such plan, or none about the axis alone")
+    cost, peak = bang_coast_bang(angle, moment, given.torque, given.duration)
+    share = 100.0 * peak / given.momentum
+    found = f"{1e4 * row['held_cost_N_m_s']:.3f}e-4 N m s against {1e4 * cost:.3f}e-4 by hand"
+    saving = 1.0 - row["held_cost_N_m_s"] / cost
+    if saving >= SAME_COST:
+        return Judgement("holds", f"a plan off the eigenaxis costs {found} about {axis} alone")
+    if saving <= -SAME_COST:
+        return Judgement("undecided", f"the plan found costs {found}: more than it need")
+    printed = "below" if share < PRINTED_PEAK_PCT else "not below"
+    return Judgement(
+        "fails",
+        f"of {row['starts']} starts off the eigenaxis every one ends in full torque, coast, full "
+        f"torque about {axis} alone: {found}, peak momentum {share:.2f} %, {printed} the printed "
+        f"{PRINTED_PEAK_PCT} %. The saving over the PD law comes from coasting, not from nutation",
+    )
+
+
+def bang_coast_bang(
+    angle: float, moment: float, torque: float, duration: float
+) -> tuple[float, float]:
+    """Cost and peak momentum, N m s, of the cheapest turn about one axis, by hand."""
+    burn = 0.5 * (duration - np.sqrt(duration**2 - 4.0 * angle * moment / torque))
+    return 2.0 * torque * burn, torque * burn
+
+
+def better_than_eigenaxis(config: Config, results: Path) -> Judgement:
+    """90 deg: yaw error and peak momentum, in the fuller model, open loop against PD."""
+    given = parameters(config["slew"])
+    _turn_about_z(given, "quarter")
+    replays = read_table(results / "replays.parquet")
+    flights = read_table(results / "flights.parquet")
+    found = []
+    for table, name in (
+        (replays, f"{given.names['quarter']}, one segment"),
+        (flights, "eigenaxis quarter"),
+    ):
+        flown = _flight(table, name)
+        yaw = angles_deg(flown.tail(1))[0, 2]
+        error = abs(short_of(yaw, target_yaw(given, "quarter")))
+        found.append((error, 100.0 * flown["h_z"].abs().max() / given.momentum))
+    (error, peak), (pd_error, pd_peak) = found
+    return judged(
+        bool(error < pd_error and peak < pd_peak),
+        f"yaw error {error:.2f} against {pd_error:.2f} deg, peak momentum {peak:.1f} against "
+        f"{pd_peak:.1f} %; part of it is that the plan knows the time it has and the law does not",
+    )
+
+
+def _flight(table: pd.DataFrame, name: str) -> pd.DataFrame:
+    """Rows of a flight; a LookupError where there was none."""
+    flown = table[table["flight"] == name]
+    if not len(flown):
+        raise LookupError(f"no flight '{name}'")
+    return flown
+
+
+def eigenaxis_stays_on_axis(config: Config, results: Path) -> Judgement:
+    """Roll and pitch of all eigenaxis flights."""
+    given = parameters(config["slew"])
+    for case in given.names:
+        _turn_about_z(given, case)
+    flights = read_table(results / "flights.parquet")
+    largest = float(np.abs(angles_deg(flights.iloc[::10])[:, :2]).max())
+    return judged(
+        largest < SMALL_DEG, f"roll and pitch stay below {largest:.1e} deg in all flights"
+    )
+
+
+def open_loop_follows(config: Config, results: Path) -> Judgement:
+    """90 deg: the torque history flown open loop against the plan."""
+    given = parameters(config["slew"])
+    _turn_about_z(given, "quarter")
+    replays = read_table(results / "replays.parquet")
+    flown = _flight(replays, f"{given.names['quarter']}, one segment").tail(1)
+    roll, pitch, yaw = angles_deg(flown)[0]
+    aside = short_of(yaw, target_yaw(given, "quarter"))
+    error = float(np.sqrt(roll**2 + pitch**2 + aside**2))
+    return judged(
+        error < VISIBLE_DEG,
+        f"the end is missed by {error:.2f} deg; what is missed comes from the linear interpolation "
+        f"between nodes, not from drag or the oblateness",
+    )
+
+
+def half_turn_off_eigenaxis(config: Config, results: Path) -> Judgement:
+    """180 deg: the tilt of the body's z axis on feasible plans."""
+    _turn_about_z(parameters(config["slew"]), "half")
+    tilts = _tilts(_feasible_plans(results))
+    falling = len(tilts) > 1 and tilts.is_monotonic_decreasing
+    order = ", the more the shorter the time" if falling else ""
+    return judged(
+        bool((tilts > 10.0 * VISIBLE_DEG).all()),
+        f"the z axis tilts by {tilts.min():.0f} to {tilts.max():.0f} deg on our feasible plans"
+        f"{order}",
+    )
+
+
+def _feasible_plans(results: Path) -> pd.DataFrame:
+    """The trade-off's plans with a held control; a LookupError where none converged."""
+    plans = read_table(results / "trade-off-plans.parquet")
+    if not len(plans):
+        raise LookupError("no plan of the trade-off converged")
+    return plans
+
+
+def _tilts(plans: pd.DataFrame) -> pd.Series:
+    """Largest tilt of the z axis, deg, of each plan, in the order of their durations."""
+    times = plans.groupby("plan")["time_s"].max().sort_values()
+    cosine = 1.0 - 2.0 * (plans["q_1"] ** 2 + plans["q_2"] ** 2)
+    tilts = np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
+    return tilts.groupby(plans["plan"]).max()[times.index]
+
+
+def closed_loop_of_the_axis(config: Config, results: Path) -> Judgement:
+    """180 deg: the path of the body's z axis in the inertial x-y plane closes on itself."""
+    _turn_about_z(parameters(config["slew"]), "half")
+    plans = _feasible_plans(results)
+    path = plans[plans["plan"] == plans["plan"].iloc[0]]
+    q1, q2, q3, q4 = (path[f"q_{i}"].to_numpy() for i in range(1, 5))
+    x, y = 2.0 * (q1 * q3 + q2 * q4), 2.0 * (q2 * q3 - q1 * q4)
+    gap = float(np.hypot(x[-1] - x[0], y[-1] - y[0]))
+    area = 0.5 * float(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]))
+    return judged(
+        gap < INDEPENDENT_MISS and abs(area) > 0.01,
+        f"on our fastest feasible plan the path leaves the vertical and comes back "
+        f"(gap {gap:.0e}), a drop-shaped loop around an area of {abs(area):.2f}; "
+        f"a cardioid in that sense",
+    )
+
+
+def torque_all_the_time(config: Config, results: Path) -> Judgement:
+    """180 deg: the share of time with torque about each axis."""
+    plans = _feasible_plans(results)
+    given = parameters(config["slew"])
+    limit = 0.01 * given.torque
+    shares = [
+        (
+            str(name),
+            100.0 * min(float((table[f"u_{axis}"].abs() > limit).mean()) for axis in "xyz"),
+        )
+        for name, table in plans.groupby("plan", sort=False)
+    ]
+    first, last = shares[0], shares[-1]
+    near = ": true next to the least time, where there is no torque to spare, and not in general"
+    return judged(
+        first[1] > 90.0 and last[1] > 90.0,
+        f"the least-used wheel works {first[1]:.0f} % of the time on the plan '{first[0]}' and "
+        f"{last[1]:.0f} % on '{last[0]}'{near if first[1] > 90.0 >= last[1] else ''}",
+    )
+
+
+def gradient_dominates(config: Config, results: Path) -> Judgement:
+    """From 400 km on the gravity gradient is the larger torque, over the band of assumptions."""
+    section = config["slew"]
+    table = read_table(results / "environment.csv")
+    above = table[table["altitude_km"] >= 400.0]
+    printed = panels(section)[0, 5]
+    lever = table[np.isclose(table["offset_mm"], 1e3 * abs(printed))]
+    if not len(above) or not len(lever):
+        raise LookupError("no altitude from 400 km on, or not the printed lever")
+    everywhere = bool(
+        (lever["gravity_gradient_N_m"] > lever["drag_N_m"])[
+            np.isclose(lever["density_factor"], 1.0)
+        ].all()
+    )
+    share = float((above["gravity_gradient_N_m"] > above["drag_N_m"]).mean())
+    largest = max(section["environment"]["offsets_mm"])
+    crossing = crossover_km(table, largest)
+    worst = crossover_km(table, largest, max(section["environment"]["density_factors"]))
+    return Judgement(
+        "holds" if share == 1.0 else "undecided",
+        f"with the printed lever it {'dominates' if everywhere else 'does not dominate'} at every "
+        f"altitude studied; with {largest:g} mm the "
+        f"crossover is at {_km(crossing)}, at {_km(worst)} in the densest air assumed; "
+        f"{100 * share:.0f} % of the cases from 400 km on",
+    )
+
+
+def _km(altitude: float) -> str:
+    return "no altitude studied" if np.isnan(altitude) else f"{altitude:.0f} km"
+
+
+def transition_matrix_keeps_length(config: Config, results: Path) -> Judgement:
+    """The closed form is a rotation: only rounding denormalises the quaternion."""
+    table = read_table(results / "propagator.csv")
+    length = float(table["length_error"].max())
+    given = parameters(config["slew"])
+    flown = table[table["flight"].str.startswith(given.names["half"])]
+    rows = flown.set_index("step_s")["error_deg"]
+    if not rows[1.0] > 0.0:
+        raise LookupError("the turn is too short for steps of a second")
+    ratio = float(rows[2.0] / rows[1.0])
+    order = "second order, " if abs(ratio - 4.0) < 1.0 else ""
+    return judged(
+        length < 1e-12,
+        f"the length is off by at most {length:.0e} after {given.duration:g} s; the attitude error "
+        f"is {rows[1.0]:g} deg with the printed step and falls by {ratio:.1f} when the step is "
+        f"halved, {order}so the step matters and rounding does not",
+    )
+
+
+def local_minima(config: Config, results: Path) -> Judgement:
+    """Several starts end in different least times."""
+    starts = read_table(results / "minimum-time-starts.csv")
+    name = parameters(config["slew"]).names["half"]
+    found = starts[starts["converged"] & (starts["case"] == f"{name}, wheels")]
+    if not len(found):
+        raise LookupError("no start converged")
+    durations = np.sort(found["duration_s"])
+    # What two starts reach apart by less than this is one minimum, whatever its last digit.
+    new = np.diff(durations, prepend=-np.inf) > SAME_MINIMUM_S
+    values = [round(float(value), 2) for value in durations[new]]
+    return judged(
+        len(values) > 1,
+        f"the least-time turn of {name} has local minima at {', '.join(map(str, values))} s; the "
+        f"torque-optimal plans come in mirror pairs of the same cost",
+    )
+
+
+def plans_are_optimal(config: Config, results: Path) -> Judgement:
+    """Ours: converged, flown anew, limits kept, Hamiltonian constant."""
+    table, times = (
+        rows[rows["converged"]]
+        for rows in (read_table(results / f"{name}.csv") for name in ("trade-off", "minimum-times"))
+    )
+    if not len(table) or not len(times):
+        raise LookupError("nothing converged")
+    miss = float(max(table["attitude_miss_rad"].max(), times["attitude_miss_rad"].max()))
+    spread = float(max(table["hamiltonian_spread"].max(), times["hamiltonian_spread"].max()))
+    torque = float(table["largest_torque_share"].max())
+    return judged(
+        bool(
+            table["held_converged"].all()
+            and miss < INDEPENDENT_MISS
+            and torque <= 1.0
+            and spread < 0.05
+        ),
+        f"every reported optimum has converged; flown anew by another integrator they miss their "
+        f"end by at most {miss:.0e} rad; torque never exceeds {100 * torque:.1f} % of the limit at "
+        f"or between points; the Hamiltonian varies by at most {100 * spread:.1f} % over a plan, "
+        f"most of it at the jumps of the control",
+    )

@@ -1,0 +1,208 @@
+"""What this study computes for every published result, in the printed units."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from math import nan
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from smallsat.config import Config
+from smallsat.dynamics.attitude.quaternions import roll_pitch_yaw
+from smallsat.dynamics.orbits.kepler_orbits import period
+from smallsat.evidence.observation import Observation
+from smallsat.results import read_table
+from smallsat.studies.slew.methods.bound import plan_names
+from smallsat.studies.slew.methods.environment_study import crossover_km
+from smallsat.studies.slew.model.simulation import angles_deg, usage_pct
+from smallsat.studies.slew.parameters import KM, Parameters
+
+AXES = "xyz"
+MINUTE = 60.0
+# The printed yaw error that "comparable" is measured by, deg (Section VI.B).
+COMPARABLE_DEG = 0.9
+NO_LEAST_TIME = "not converged: no least time was found"
+NO_PLAN = "not converged: there is no plan"
+RATES = ["omega_x", "omega_y", "omega_z"]
+TURNS = {"quarter": "90-deg", "half": "180-deg"}
+# Ours, and the document's mesh last: it is the one shown.
+MESHES = ("segments", "one segment")
+
+
+def observations(section: Config, given: Parameters, results: Path) -> list[Observation]:
+    """All observations, from the study's result tables."""
+    return [
+        *_orbit(given, results),
+        *_durations(given, results),
+        *_eigenaxis(given, results),
+        *_torque_optimal(given, results),
+        *_crossover(section, results),
+    ]
+
+
+def _orbit(given: Parameters, results: Path) -> Iterator[Observation]:
+    a, e = given.orbit.semi_major_axis, given.orbit.eccentricity
+    radius = given.gravity.radius
+    where = "slew/section-v-f/orbit"
+    yield Observation(f"{where}-perigee-altitude", (a * (1.0 - e) - radius) / KM)
+    yield Observation(f"{where}-apogee-altitude", (a * (1.0 + e) - radius) / KM)
+    yield Observation(f"{where}-period", period(a, given.gravity.mu) / MINUTE)
+    table = read_table(results / "orbit.csv")
+    rows = table[(table["gravity"] == "J2") & (table["integrator"] == "order 8")]
+    # The last one is what follows from the elements; the printed start is a rounded one.
+    for start in ("the printed initial state", "the orbital elements"):
+        row = rows[rows["start"] == start].iloc[0]
+        for axis in AXES:
+            run = f"from {start}, with J2"
+            yield Observation(f"slew/table-2/r-f/{axis}", row[f"{axis}_km"], run)
+            yield Observation(f"slew/table-2/v-f/{axis}", row[f"v{axis}_km_s"], run)
+
+
+def scaled_durations(given: Parameters, results: Path) -> pd.DataFrame:
+    """Eq. 30 for the smallest and largest moment of inertia: one row a line of Table 3."""
+    times = read_table(results / "minimum-times.csv").set_index("case")["duration_s"]
+    scales = np.sqrt(np.linalg.eigvalsh(given.inertia)[[0, 2]] / given.torque)
+    rows = []
+    for case, turn in TURNS.items():
+        # Full torque forth and back about one axis.
+        angle = np.radians(given.angle_deg(case))
+        rows.append((f"{turn}-eigenaxis", 2.0 * np.sqrt(angle)))
+        rows.append((f"{turn}-time-optimal", float(times[f"benchmark, {given.names[case]}"])))
+    return pd.DataFrame(
+        [
+            {"case": case, "t_hat": t, "t_min": t * scales[0], "t_max": t * scales[1]}
+            for case, t in rows
+        ]
+    )
+
+
+def _durations(given: Parameters, results: Path) -> Iterator[Observation]:
+    for row in scaled_durations(given, results).to_dict("records"):
+        note = NO_LEAST_TIME if np.isnan(row["t_hat"]) else ""
+        yield Observation(f"slew/table-3/t-min/{row['case']}", row["t_min"], note=note)
+        yield Observation(f"slew/table-3/t-max/{row['case']}", row["t_max"], note=note)
+
+
+def _eigenaxis(given: Parameters, results: Path) -> Iterator[Observation]:
+    flights = read_table(results / "flights.parquet")
+    for case, turn in TURNS.items():
+        flown = flights[flights["flight"] == f"eigenaxis {case}"]
+        roll, pitch, yaw = angles_deg(flown.tail(1))[0]
+        _, momentum = usage_pct(flown, given)
+        where, name = "slew/section-vi-a", f"{turn}-eigenaxis"
+        yield Observation(f"{where}/final-yaw-angle/{name}", yaw)
+        yield Observation(f"{where}/yaw-undershoot/{name}", short_of(yaw, target_yaw(given, case)))
+        yield Observation(f"{where}/roll-angle/{name}", roll)
+        yield Observation(f"{where}/pitch-angle/{name}", pitch)
+        rate = float(np.degrees(flown["omega_z"].iloc[-1]))
+        yield Observation(f"{where}/residual-omega-z/{name}/z", rate)
+        peak = float(np.abs(momentum[:, 2]).max())
+        yield Observation(f"{where}/maximum-angular-momentum-usage/{name}/z", peak)
+        yield Observation(f"{where}/final-angular-momentum-usage/{name}/z", momentum[-1, 2])
+        settled = flights[flights["flight"] == f"eigenaxis {case}, no time limit"]
+        yield Observation(
+            f"slew/section-vi-b/eigenaxis-time-for-comparable-yaw-and-rates/{turn}-no-time-limit",
+            time := comparable_time(settled, target_yaw(given, case)),
+            note="not within the printed error when the flight ends" if np.isnan(time) else "",
+        )
+
+
+def target_yaw(given: Parameters, case: str) -> float:
+    """Yaw of a turn's target, deg."""
+    return float(np.degrees(roll_pitch_yaw(tuple(given.targets[case]))[2]))
+
+
+def short_of(angle: float, target: float) -> float:
+    """How far an angle is short of a target, deg, the shorter way around."""
+    return min((target + turn - angle for turn in (0.0, -360.0, 360.0)), key=abs)
+
+
+def comparable_time(flown: pd.DataFrame, target: float) -> float:
+    """Time, s, from which the yaw stays within the printed error of the 180 deg run.
+
+    Not a number where it does not within the flight.
+    """
+    error = np.array([abs(short_of(yaw, target)) for yaw in angles_deg(flown)[:, 2]])
+    late = np.flatnonzero(error > COMPARABLE_DEG)
+    since = late[-1] + 1 if len(late) else 0
+    return float(flown["time_s"].to_numpy()[since]) if since < len(flown) else nan
+
+
+def _torque_optimal(given: Parameters, results: Path) -> Iterator[Observation]:
+    replays = read_table(results / "replays.parquet")
+    for case, turn in TURNS.items():
+        target = target_yaw(given, case)
+        for kind in MESHES:
+            plan, flown = chosen_plan(replays, "flight", given, case, kind)
+            for observed in _flown_plan(flown, given, f"{turn}-torque-optimal", target):
+                yield replace(observed, run=plan, note="" if len(flown) else NO_PLAN)
+
+
+def _flown_plan(
+    flown: pd.DataFrame, given: Parameters, name: str, target: float
+) -> Iterator[Observation]:
+    """End and peaks of a flight; not a number where there is none."""
+    where = "slew/section-vi-b"
+    angles, rates, momentum = np.full(3, nan), np.full(3, nan), np.full((1, 3), nan)
+    if len(flown):
+        angles = angles_deg(flown.tail(1))[0]
+        rates = np.abs(np.degrees(flown[RATES].to_numpy()[-1]))
+        _, momentum = usage_pct(flown, given)
+    roll, pitch, yaw = angles
+    yield Observation(f"{where}/final-yaw-angle/{name}", yaw)
+    yield Observation(f"{where}/final-roll-angle/{name}", roll)
+    yield Observation(f"{where}/final-pitch-angle/{name}", pitch)
+    if name.startswith(TURNS["half"]):
+        yield Observation(f"{where}/yaw-pointing-error/{name}", abs(short_of(yaw, target)))
+    for i, axis in enumerate(AXES):
+        peak = float(np.abs(momentum[:, i]).max())
+        final = float(abs(momentum[-1, i]))
+        yield Observation(f"{where}/final-angular-rate/{name}/{axis}", rates[i])
+        yield Observation(f"{where}/maximum-angular-momentum-usage/{name}/{axis}", peak)
+        yield Observation(f"{where}/final-angular-momentum-usage/{name}/{axis}", final)
+
+
+def chosen_plan(
+    table: pd.DataFrame, column: str, given: Parameters, case: str, kind: str
+) -> tuple[str, pd.DataFrame]:
+    """The plan of a turn on a mesh that a table has: its name and rows, of least torque first."""
+    for name in plan_names(given, case, kind):
+        rows = table[table[column] == name]
+        if len(rows):
+            break
+    return name, rows
+
+
+def _crossover(section: Config, results: Path) -> Iterator[Observation]:
+    table = read_table(results / "environment.csv")
+    offset = max(section["environment"]["offsets_mm"])
+    yield Observation(
+        "slew/section-v-c/altitude-above-which-gravity-gradient-dominates/environment-torque-study",
+        crossing := crossover_km(table, offset),
+        run=f"centre of pressure {offset:g} mm off the centre, assumed",
+        note="drag is the larger at every altitude of this run" if np.isnan(crossing) else "",
+    )
+
+
+def timings(given: Parameters, results: Path) -> pd.DataFrame:
+    """Our seconds for the printed ones: columns id and seconds."""
+    seconds = read_table(results / "plan-seconds.csv")
+    propagator = float(seconds["seconds"].iloc[-1])
+    rows = []
+    for case, turn in TURNS.items():
+        _, solved = chosen_plan(seconds, "plan", given, case, MESHES[-1])
+        guidance = float(solved["seconds"].iloc[0])
+        for processor in ("i7-2700k", "core2duo-t7700"):
+            for quantity, value in (
+                ("propagator", propagator),
+                ("guidance", guidance),
+                ("total", propagator + guidance),
+            ):
+                rows.append(
+                    {
+                        "id": f"slew/table-4/{quantity}-run-time/{turn}-{processor}",
+                        "seconds": value,
+                    }
+                )
+    return pd.DataFrame(rows)

@@ -1,0 +1,270 @@
+"""The document's figures of a motion, and those of what goes beyond it.
+
+Each function returns the figure and the table of exactly what it draws.
+"""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from matplotlib.pyplot import figure as new_figure
+from matplotlib.pyplot import subplots
+from mpl_toolkits.mplot3d import Axes3D
+
+from smallsat.dynamics.attitude.quaternions import quaternion_to_dcm
+from smallsat.studies.slew.model.simulation import angles_deg, usage_pct
+from smallsat.studies.slew.parameters import Parameters
+
+Drawing = tuple[Figure, pd.DataFrame]
+AXES = "xyz"
+QUATERNION = ["q_1", "q_2", "q_3", "q_4"]
+CONTROL_STYLES = {"open loop": "C0--", "closed loop on the plan": "C1-", "eigenaxis law": "C2:"}
+# Every so many rows of a flight at 10 Hz are drawn.
+THINNED = 2
+# Labels of the last axes stand a little above those of the first ones.
+LIFT = np.array([0.0, 0.0, 0.14])
+
+
+def missing(note: str) -> Drawing:
+    """The place of a figure whose case did not converge."""
+    figure, axes = subplots(figsize=(6.3, 2.7))
+    axes.set_axis_off()
+    axes.text(0.5, 0.5, note, ha="center", va="center", color="C3", transform=axes.transAxes)
+    return _frozen(figure), pd.DataFrame({"note": [note]})
+
+
+def attitude(flown: pd.DataFrame, title: str = "") -> Drawing:
+    """Roll, pitch and yaw, and the body rates, over time."""
+    rows = flown.iloc[::THINNED]
+    angles = angles_deg(rows)
+    # Jumps by a full turn are none of the motion's.
+    angles = np.degrees(np.unwrap(np.radians(angles), axis=0))
+    data = pd.DataFrame({"time_s": rows["time_s"].to_numpy()})
+    figure, (left, right) = subplots(1, 2, figsize=(6.3, 2.7))
+    for i, (name, style) in enumerate((("roll", "-"), ("pitch", "--"), ("yaw", "-"))):
+        data[f"{name}_deg"] = angles[:, i]
+        left.plot(data["time_s"], angles[:, i], style, label=name)
+    for i, axis in enumerate(AXES):
+        rate = np.degrees(rows[f"omega_{axis}"].to_numpy())
+        data[f"omega_{axis}_deg_s"] = rate
+        right.plot(data["time_s"], rate, ("-", "--", "-")[i], label=rf"$\omega_{axis}$")
+    left.set(xlabel="time [s]", ylabel="angle [deg]")
+    right.set(xlabel="time [s]", ylabel="rate [deg/s]")
+    return _titled(figure, (left, right), title), data
+
+
+def usage(flown: pd.DataFrame, given: Parameters, title: str = "") -> Drawing:
+    """Torque and momentum of each wheel in percent of its limit."""
+    rows = flown.iloc[::THINNED]
+    torque, momentum = usage_pct(rows, given)
+    data = pd.DataFrame({"time_s": rows["time_s"].to_numpy()})
+    figure, (left, right) = subplots(1, 2, figsize=(6.3, 2.7))
+    for panel, values, name in ((left, torque, "torque"), (right, momentum, "momentum")):
+        for i, axis in enumerate(AXES):
+            data[f"{name}_{axis}_pct"] = values[:, i]
+            panel.plot(data["time_s"], values[:, i], ("-", "--", "-")[i], lw=1.1, label=f"${axis}$")
+        panel.set(xlabel="time [s]", ylabel=f"{name} used [%]")
+    left.set_ylim(-108, 108)
+    return _titled(figure, (left, right), title), data
+
+
+def history(plan: pd.DataFrame, given: Parameters, title: str = "") -> Drawing:
+    """Quaternion, rate and torque of a plan at its points."""
+    figure, panels = subplots(1, 3, figsize=(6.3, 2.8))
+    data = plan[["time_s", *QUATERNION]].reset_index(drop=True)
+    inner = plan["node"].to_numpy() == 1
+    for name in QUATERNION:
+        panels[0].plot(data["time_s"], data[name], ".-", ms=3, lw=0.8, label=f"${name}$")
+    for axis in AXES:
+        data[f"omega_{axis}_deg_s"] = np.degrees(plan[f"omega_{axis}"].to_numpy())
+        panels[1].plot(
+            data["time_s"], data[f"omega_{axis}_deg_s"], ".-", ms=3, lw=0.8,
+            label=rf"$\omega_{axis}$",
+        )  # fmt: skip
+        torque = np.where(inner, 1e3 * plan[f"u_{axis}"].to_numpy(), np.nan)
+        data[f"u_{axis}_mN_m"] = torque
+        panels[2].plot(data["time_s"], torque, ".-", ms=3, lw=0.8, label=f"$u_{axis}$")
+    labels = ("quaternion [-]", "rate [deg/s]", "torque [mN m]")
+    for panel, label in zip(panels, labels, strict=True):
+        panel.set(xlabel="time [s]", title=label)
+    panels[2].set_ylim(-1.1e3 * given.torque, 1.1e3 * given.torque)
+    return _titled(figure, panels, title), data
+
+
+def traces(flown: pd.DataFrame, title: str = "") -> Drawing:
+    """Paths of the tips of the body axes on the unit sphere, in the inertial frame."""
+    rows = flown.iloc[:: 5 * THINNED]
+    if rows.index[-1] != flown.index[-1]:
+        rows = pd.concat([rows, flown.tail(1)])
+    tips = np.array([quaternion_to_dcm(tuple(q)) for q in rows[QUATERNION].to_numpy()])
+    figure = new_figure(figsize=(4.6, 4.2))
+    figure.set_layout_engine("none")
+    axes: Axes3D = figure.add_axes((0.0, 0.0, 1.0, 0.94), projection="3d")
+    around, up = np.meshgrid(np.linspace(0, 2 * np.pi, 37), np.linspace(0, np.pi, 19))
+    axes.plot_wireframe(
+        np.cos(around) * np.sin(up), np.sin(around) * np.sin(up), np.cos(up),
+        color="0.85", lw=0.3,
+    )  # fmt: skip
+    data = {"time_s": rows["time_s"].to_numpy()}
+    for i, (axis, colour) in enumerate(zip(AXES, ("C0", "C1", "C2"), strict=True)):
+        path = tips[:, i]
+        axes.plot(*path.T, color=colour, lw=1.6)
+        for k, style in ((0, ":"), (-1, "-")):
+            axes.plot(*np.array([np.zeros(3), path[k]]).T, style, color=colour, lw=1.1)
+        axes.plot(*path[-1], "o", color=colour, ms=4)
+        axes.text(*(1.17 * path[0]), f"${axis}_0$", color=colour, ha="center")
+        # Where an axis ends as it began, one label is enough.
+        if np.linalg.norm(path[-1] - path[0]) > 0.3:
+            axes.text(*(1.2 * path[-1] + LIFT), f"${axis}_f$", color=colour, ha="center")
+        for j, name in enumerate(AXES):
+            data[f"{axis}_axis_{name}"] = path[:, j]
+    limits = (-0.85, 0.85)
+    axes.set(xlim=limits, ylim=limits, zlim=limits)
+    axes.set_box_aspect((1, 1, 1), zoom=1.25)
+    axes.view_init(elev=28, azim=38)
+    axes.set_axis_off()
+    figure.text(0.5, 0.965, title or "paths of the body axes", ha="center", fontsize=8)
+    return figure, pd.DataFrame(data)
+
+
+def environment(table: pd.DataFrame, assumptions: str) -> Drawing:
+    """Gravity gradient and drag over altitude; a band over the assumptions of the density."""
+    figure, axes = subplots(figsize=(6.3, 3.9))
+    middle = table[np.isclose(table["density_factor"], 1.0)]
+    for i, (offset, rows) in enumerate(table.groupby("offset_mm")):
+        band = rows.groupby("altitude_km")["drag_N_m"]
+        altitude = np.array(sorted(rows["altitude_km"].unique()))
+        axes.fill_between(altitude, band.min(), band.max(), color=f"C{i + 1}", alpha=0.2, lw=0)
+        line = middle[middle["offset_mm"] == offset]
+        axes.plot(
+            line["altitude_km"], line["drag_N_m"], "--", color=f"C{i + 1}",
+            label=f"drag, lever {offset:g} mm",
+        )  # fmt: skip
+    one = middle.drop_duplicates("altitude_km")
+    axes.plot(one["altitude_km"], one["gravity_gradient_N_m"], color="C0", label="gravity gradient")
+    axes.set(yscale="log", xlabel="altitude [km]", ylabel="mean torque [N m]")
+    axes.legend(loc="upper right", ncols=2)
+    axes.set_title(assumptions, fontsize=7.5)
+    return figure, table
+
+
+def trade_off(table: pd.DataFrame, printed: float, least: float, bound: float) -> Drawing:
+    """Cost and peak momentum of feasible plans of the larger turn over their time.
+
+    Crosses on the axis are times for which there is no plan.
+
+    Parameters
+    ----------
+    table
+        ``trade-off.csv``.
+    printed
+        The document's time, where the axis begins, s.
+    least, bound
+        Least time found, not a number where none was, and the time below which there is none, s.
+    """
+    figure, (left, right) = subplots(1, 2, figsize=(6.3, 3.0))
+    solved = table["converged"] & table["held_converged"]
+    good, lost = table[solved], table[~solved]
+    start = min(printed, *table["duration_s"])
+    left.plot(good["duration_s"], 1e3 * good["held_cost_N_m_s"], "o-", ms=3)
+    left.set(xlabel="time of the manoeuvre [s]", ylabel=r"cost $\int|u|\,dt$ [mN m s]")
+    for axis in AXES:
+        right.plot(good["duration_s"], good[f"held_peak_{axis}_pct"], "o-", ms=3, label=f"${axis}$")
+    right.set(xlabel="time of the manoeuvre [s]", ylabel="peak momentum [%]")
+    right.legend()
+    for panel in (left, right):
+        panel.axvspan(min(start, bound), bound, color="0.6", alpha=0.5, lw=0)
+        if least > bound:
+            panel.axvspan(bound, least, color="0.8", alpha=0.5, lw=0)
+        if len(lost):
+            panel.plot(
+                lost["duration_s"], np.zeros(len(lost)), "x", color="C3", clip_on=False,
+                transform=panel.get_xaxis_transform(), label="no plan",
+            )  # fmt: skip
+            panel.legend()
+        panel.set_xlim(left=start)
+    left.text(0.02, 0.03, "dark: proven impossible\nlight: below the least\ntime found",
+              transform=left.transAxes, fontsize=7)  # fmt: skip
+    data = good[["duration_s", "held_cost_N_m_s", *[f"held_peak_{a}_pct" for a in AXES]]]
+    data = pd.concat([data, lost[["duration_s"]]]) if len(lost) else data
+    return figure, data.assign(least_time_s=least, bound_s=bound)
+
+
+def degradation(table: pd.DataFrame) -> Drawing:
+    """Least time of the larger turn, and cost in a tenth more, over the wheels' torque.
+
+    Crosses on the axis are torques for which one of them was not found.
+    """
+    figure, (left, right) = subplots(1, 2, figsize=(6.3, 2.9))
+    for panel, name, label in (
+        (left, "least_time_s", "least time [s]"),
+        (right, "cost_N_m_s", "cost in 1.1 least times [mN m s]"),
+    ):
+        factor = 1e3 if name.startswith("cost") else 1.0
+        panel.plot(table["torque_share_pct"], factor * table[name], "-", color="C0", lw=1.0)
+        for limited, marker, word in (
+            (False, "o", "torque limits"),
+            (True, "s", "momentum limits"),
+        ):
+            rows = table[table["momentum_limited"] == limited]
+            panel.plot(
+                rows["torque_share_pct"], factor * rows[name], marker, ms=4,
+                color="C1" if limited else "C0", label=word,
+            )  # fmt: skip
+        panel.set(xlabel="torque of the wheels [% of healthy]", ylabel=label)
+        lost = table.loc[table[name].isna(), "torque_share_pct"]
+        if len(lost):
+            panel.plot(
+                lost, np.zeros(len(lost)), "x", color="C3", clip_on=False,
+                transform=panel.get_xaxis_transform(), label="not converged",
+            )  # fmt: skip
+            panel.legend()
+    left.legend()
+    return figure, table
+
+
+def tracking(flights: pd.DataFrame) -> Drawing:
+    """Pointing error over time, with and without an error of the inertia."""
+    flights = flights[flights["control"].notna()]
+    turns = list(flights["turn"].unique())
+    errors = sorted(flights["inertia_error_pct"].unique())
+    figure, panels = subplots(
+        len(turns), len(errors), figsize=(6.3, 4.4), sharex="row", sharey="row", squeeze=False
+    )
+    for i, turn in enumerate(turns):
+        for j, error in enumerate(errors):
+            panel = panels[i, j]
+            rows = flights[(flights["turn"] == turn) & (flights["inertia_error_pct"] == error)]
+            for name, flown in rows.groupby("control", sort=False):
+                panel.plot(
+                    flown["time_s"], flown["error_deg"] + 1e-4, CONTROL_STYLES[str(name)],
+                    label=name, lw=1.2,
+                )  # fmt: skip
+            panel.set(yscale="log", ylim=(1e-3, 300))
+            panel.set_title(f"{turn}, inertia error {error:g} %")
+            if j == 0:
+                panel.set_ylabel("error to the target [deg]")
+            panel.set_xlabel("time [s]")
+    # A turn without a plan is flown by the eigenaxis law alone.
+    lines, names = max(
+        (p.get_legend_handles_labels() for p in panels[:, 0]), key=lambda h: len(h[1])
+    )
+    figure.legend(lines, names, loc="outside upper center", ncols=3)
+    drawn = flights[["turn", "inertia_error_pct", "control", "time_s", "error_deg"]]
+    return _frozen(figure), drawn
+
+
+def _titled(figure: Figure, panels, title: str) -> Figure:
+    if title:
+        figure.suptitle(title, fontsize=8.5)
+    for panel in panels:
+        panel.legend(loc="best", fontsize=7, handlelength=1.3, frameon=True, framealpha=0.8)
+    return _frozen(figure)
+
+
+def _frozen(figure: Figure) -> Figure:
+    """Laid out once, not again for each file format."""
+    layout = figure.get_layout_engine()
+    assert layout is not None
+    layout.execute(figure)
+    figure.set_layout_engine("none")
+    return figure

@@ -1,0 +1,77 @@
+"""Figure 2: gravity gradient against drag over altitude, with the assumptions as a band."""
+
+from math import nan
+
+import numpy as np
+import pandas as pd
+from scipy.spatial.transform import Rotation
+
+from smallsat.config import Config
+from smallsat.dynamics.environment.torques import ATMOSPHERE, density, gravity_gradient, panel_drag
+from smallsat.dynamics.orbits.kepler_orbits import perifocal_frame
+from smallsat.studies.slew.model.simulation import EARTH_RATE
+from smallsat.studies.slew.parameters import KM, Parameters, panels
+
+DAY_S = 86400.0
+SAMPLE_S = 60.0
+
+
+def torque_table(section: Config, given: Parameters) -> pd.DataFrame:
+    """Mean torques, N m, on a body at rest in inertial space over the study's time.
+
+    Circular orbits in the plane of the document's. One row an altitude, offset of the centre of
+    pressure and factor of the density.
+    """
+    entry = section["environment"]
+    roll, pitch, yaw = entry["attitude_deg"]
+    # Rows are the body axes in the inertial frame.
+    dcm = Rotation.from_euler("ZYX", [yaw, pitch, roll], degrees=True).as_matrix().T
+    frame = perifocal_frame(given.orbit)
+    times = np.arange(0.0, entry["duration_days"] * DAY_S, SAMPLE_S)
+    by_offset = {mm: panels(section, offset=mm / KM) for mm in entry["offsets_mm"]}
+    rows = []
+    for altitude in entry["altitudes_km"]:
+        radius = given.gravity.radius + altitude * KM
+        rate = np.sqrt(given.gravity.mu / radius**3)
+        gradient: list[float] = []
+        drags: dict[float, list[float]] = {mm: [] for mm in by_offset}
+        rho = density(altitude * KM, ATMOSPHERE)
+        for angle in rate * times:
+            r = radius * (np.cos(angle) * frame[0] + np.sin(angle) * frame[1])
+            v = radius * rate * (np.cos(angle) * frame[1] - np.sin(angle) * frame[0])
+            wind = dcm @ (v - np.cross([0.0, 0.0, EARTH_RATE], r))
+            gradient.append(
+                float(np.linalg.norm(gravity_gradient(given.inertia, dcm @ r, given.gravity.mu)))
+            )
+            for mm, shape in by_offset.items():
+                drag = panel_drag(shape, wind, rho, given.drag_coefficient)
+                drags[mm].append(float(np.linalg.norm(drag)))
+        for mm, found in drags.items():
+            for factor in entry["density_factors"]:
+                rows.append(
+                    {
+                        "altitude_km": altitude,
+                        "offset_mm": mm,
+                        "density_factor": factor,
+                        "gravity_gradient_N_m": float(np.mean(gradient)),
+                        "drag_N_m": factor * float(np.mean(found)),
+                    }
+                )
+    return pd.DataFrame(rows)
+
+
+def crossover_km(table: pd.DataFrame, offset_mm: float, factor: float = 1.0) -> float:
+    """Altitude above which the gravity gradient is the larger; the lowest one if it always is.
+
+    Not a number if it is not at the highest.
+    """
+    rows = table[(table["offset_mm"] == offset_mm) & np.isclose(table["density_factor"], factor)]
+    rows = rows.sort_values("altitude_km")
+    ratio = np.log(rows["gravity_gradient_N_m"].to_numpy() / rows["drag_N_m"].to_numpy())
+    altitude = rows["altitude_km"].to_numpy()
+    if ratio[0] >= 0.0:
+        return float(altitude[0])
+    if ratio[-1] < 0.0:
+        return nan
+    last = int(np.flatnonzero(ratio < 0.0)[-1])
+    return float(np.interp(0.0, ratio[last : last + 2], altitude[last : last + 2]))

@@ -1,0 +1,42 @@
+"""What is flown in the fuller model: eigenaxis control and the plans in open loop."""
+
+import numpy as np
+import pandas as pd
+
+from smallsat.config import Config
+from smallsat.studies.slew.model.simulation import Command, eigenaxis, open_loop, plant, run
+from smallsat.studies.slew.parameters import Parameters
+
+# Long enough for the eigenaxis law to settle: the document speaks of 150 s and 170 s.
+SETTLED_S = 240.0
+
+
+def controller(section: Config, given: Parameters, case: str, hold: int = 0) -> Command:
+    """The document's eigenaxis law for a case."""
+    law = section["controller"]
+    return eigenaxis(
+        given,
+        given.targets[case],
+        law["natural_frequency_rad_s"],
+        law["damping_ratio"],
+        hold=hold,
+    )
+
+
+def eigenaxis_flights(section: Config, given: Parameters) -> pd.DataFrame:
+    """Continuous control of both turns, in the printed time and until settled."""
+    step = section["numerics"]["step_s"]
+    tables = []
+    for case in ("quarter", "half"):
+        for name, duration in (("", given.duration), (", no time limit", SETTLED_S)):
+            flown = run(given, plant(given), controller(section, given, case), duration, step)
+            tables.append(flown.assign(flight=f"eigenaxis {case}{name}"))
+    return pd.concat(tables, ignore_index=True)
+
+
+def replay(
+    given: Parameters, section: Config, torques: np.ndarray, duration: float
+) -> pd.DataFrame:
+    """Torques at the resampling rate, flown in open loop in the fuller model."""
+    command = open_loop(given, 1.0 / section["resampling_hz"], torques)
+    return run(given, plant(given), command, duration, section["numerics"]["step_s"])

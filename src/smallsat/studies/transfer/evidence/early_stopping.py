@@ -1,0 +1,34 @@
+"""The experiment behind an inference: early-stopped runs beside the printed times."""
+
+import pandas as pd
+
+from smallsat.studies.transfer.evidence.printed import printed_cases
+
+# Half a unit of the last digit of Table 4's final times.
+HALF_UNIT = 5e-6
+
+
+def early_stopping_table(cases: pd.DataFrame) -> pd.DataFrame:
+    """Compare as-published runs at every tolerance with Table 4.
+
+    Parameters
+    ----------
+    cases
+        As-published cases of direct multiple shooting at all tolerances.
+
+    Returns
+    -------
+    DataFrame
+        One row a case and tolerance: degree, intervals, tolerance, iterations, final_time, printed,
+        equal_to_printed (to the last digit), in_printed_band (between the smallest and the largest
+        printed final time of the table).
+    """
+    printed = printed_cases("Table 4")["terminal time"].droplevel("method").rename("printed")
+    rows = cases[(cases["intervals"] > 1) & (cases["run"] == "as published")]
+    columns = ["degree", "intervals", "tolerance", "iterations", "final_time"]
+    table = rows[columns].merge(printed.reset_index(), on=["degree", "intervals"], how="inner")
+    table["equal_to_printed"] = (table["final_time"] - table["printed"]).abs() <= HALF_UNIT
+    table["in_printed_band"] = table["final_time"].between(
+        printed.min() - HALF_UNIT, printed.max() + HALF_UNIT
+    )
+    return table.sort_values(columns[:3], ascending=[True, True, False], ignore_index=True)

@@ -1,0 +1,294 @@
+"""Figures 65 to 70: all cases compared, and the figures of the chapter's own section."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from smallsat.drawing.style import BLACK, BLUE, CYCLE, GREEN, ORANGE, VERMILION, WIDTH
+from smallsat.studies.transfer.evidence.printed import printed_cases
+from smallsat.studies.transfer.figures.missing import NOT_CONVERGED, mark_missing
+from smallsat.studies.transfer.methods.bounds import relative_length
+
+
+def work(cases: pd.DataFrame) -> pd.Series:
+    """Flights that a finite-difference solver, like the document's, would need.
+
+    Iterations times (unknowns + 1): a measure of cost that no machine changes.
+    """
+    return cases["iterations"] * (cases["unknowns"] + 1)
+
+
+def cost_surface(cost: pd.DataFrame) -> Figure:
+    """Figure 65: printed seconds and our work over N and K, as surfaces.
+
+    Parameters
+    ----------
+    cost
+        Columns degree, intervals, seconds (printed) and work.
+    """
+    return _surfaces(
+        cost,
+        {"seconds": "printed (s)", "work": "flights (thousands)"},
+        scale={"work": 1e-3},
+    )
+
+
+def time_surface(times: pd.DataFrame) -> Figure:
+    """Figure 67: printed and converged final time over N and K, as surfaces."""
+    return _surfaces(times, {"printed": "printed $t_f$", "converged": "converged $t_f$"})
+
+
+def cost_lines(cost: pd.DataFrame) -> Figure:
+    """Figure 66: cost against K, one line a degree."""
+    figure, pair = plt.subplots(1, 2, figsize=(WIDTH, 2.8))
+    for axes, column, label in zip(
+        pair, ("seconds", "work"), ("printed execution time (s)", "flights"), strict=True
+    ):
+        for degree, group in cost.groupby("degree"):
+            axes.plot(group["intervals"], group[column], "-o", ms=3, label=f"N = {degree}")
+        axes.set_xlabel("intervals K")
+        axes.set_ylabel(label)
+        axes.set_xticks(sorted(cost["intervals"].unique()))
+    pair[0].legend()
+    return figure
+
+
+def cost_against_indirect(cost: pd.DataFrame, indirect: pd.DataFrame) -> Figure:
+    """Figure 68: cost of direct and of indirect multiple shooting against K."""
+    figure, pair = plt.subplots(1, 2, figsize=(WIDTH, 3.0), sharex=True)
+    for axes, column, label in zip(
+        pair, ("seconds", "work"), ("printed execution time (s)", "flights"), strict=True
+    ):
+        for degree, group in cost.groupby("degree"):
+            axes.plot(group["intervals"], group[column], "-o", ms=3, label=f"direct, N = {degree}")
+        axes.plot(
+            indirect["intervals"], indirect[column], "--s", color=BLACK, ms=4, label="indirect"
+        )
+        axes.set_yscale("log")
+        axes.set_xlabel("intervals K")
+        axes.set_ylabel(label)
+        axes.set_xticks(sorted(cost["intervals"].unique()))
+    pair[1].legend(fontsize=7)
+    return figure
+
+
+def mass_history(flown: pd.DataFrame, finals: pd.DataFrame) -> Figure:
+    """Figure 69: mass against tau for every method, and the final masses enlarged.
+
+    Parameters
+    ----------
+    flown
+        Trajectories with columns label, tau, m.
+    finals
+        Columns label, final_time, final_mass, group.
+    """
+    figure, (left, right) = plt.subplots(1, 2, figsize=(WIDTH, 3.0))
+    colours = _group_colours()
+    for label, path in flown.groupby("label", sort=False):
+        kind = str(finals.loc[finals["label"] == label, "group"].iloc[0])
+        left.plot(path["tau"], path["m"], color=colours[kind], lw=0.8)
+    if flown.empty:
+        mark_missing(left)
+    left.set_xlabel(r"$\tau$")
+    left.set_ylabel("mass")
+    for group, rows in finals.groupby("group", sort=False):
+        right.plot(
+            rows["final_time"],
+            rows["final_mass"],
+            "o",
+            ms=4,
+            color=colours[str(group)],
+            label=group,
+        )
+    right.set_xlabel("$t_f$")
+    right.set_ylabel("final mass")
+    right.legend()
+    return figure
+
+
+def mass_above_printed(finals: pd.DataFrame) -> Figure:
+    """Figure 70: how far each case's final mass lies below the indirect optimum, on a log scale.
+
+    Parameters
+    ----------
+    finals
+        Columns degree, intervals, optimum, and the masses printed, as_published, converged.
+    """
+    figure, axes = plt.subplots(figsize=(WIDTH, 3.3))
+    position = np.arange(len(finals))
+    for column, colour, marker in (
+        ("printed", VERMILION, "D"),
+        ("as_published", ORANGE, "v"),
+        ("converged", BLUE, "o"),
+    ):
+        gap = finals["optimum"] - finals[column]
+        axes.plot(
+            position, gap.where(gap > 0), marker, ms=4, color=colour, label=column.replace("_", " ")
+        )
+    if finals["optimum"].isna().all():
+        mark_missing(axes)
+    above = finals["printed"] > finals["optimum"]
+    for place in position[above]:
+        axes.annotate(
+            "printed above optimum",
+            (place - 0.5, 0.02),
+            xycoords=axes.get_xaxis_transform(),
+            ha="center",
+            va="bottom",
+            fontsize=6,
+            rotation=90,
+            color=VERMILION,
+        )
+    axes.set_yscale("log")
+    axes.set_ylabel("indirect optimum minus final mass")
+    axes.set_xticks(
+        position,
+        [f"{n}, {k}" for n, k in zip(finals["degree"], finals["intervals"], strict=True)],
+        rotation=90,
+        fontsize=7,
+    )
+    axes.set_xlabel("N, K")
+    figure.legend(loc="outside upper center", ncols=3)
+    return figure
+
+
+def early_stopping_figure(table: pd.DataFrame, optimum: float) -> Figure:
+    """Final time of as-published runs stopped at looser tolerances, beside the printed ones.
+
+    Parameters
+    ----------
+    table
+        Of `smallsat.studies.transfer.evidence.early_stopping.early_stopping_table`.
+    optimum
+        Final time of the indirect solution, which sets the scale; not a number if there is none.
+    """
+    count = max(1, table["intervals"].nunique())
+    figure, grid = plt.subplots(1, count, figsize=(WIDTH, 3.0), sharey=True, squeeze=False)
+    panels = grid[0]
+    if table.empty:
+        mark_missing(panels[0], "none of the printed cases")
+        return figure
+    scale = _scale(optimum)
+    band = table["printed"].min(), table["printed"].max()
+    for axes, (intervals, rows) in zip(panels, table.groupby("intervals"), strict=True):
+        axes.axhspan(*band, color="#dddddd", lw=0)
+        for colour, (degree, group) in zip(CYCLE, rows.groupby("degree"), strict=False):
+            axes.semilogx(
+                group["tolerance"],
+                group["final_time"],
+                "-",
+                lw=0.8,
+                color=colour,
+                label=f"N = {degree}",
+            )
+            hit = group[group["equal_to_printed"]]
+            axes.plot(hit["tolerance"], hit["final_time"], "o", ms=5, color=colour)
+        axes.set_ylim(3.2468 * scale, 3.2525 * scale)
+        axes.invert_xaxis()
+        axes.set_title(f"K = {intervals}")
+        axes.set_xlabel("SLSQP ftol")
+        axes.tick_params(axis="x", labelsize=7)
+        axes.set_xticks([1e-4, 1e-6, 1e-8])
+    panels[0].set_ylabel("$t_f$")
+    panels[-1].legend(fontsize=7)
+    return figure
+
+
+def continuity_figure(table: pd.DataFrame, optimum: float) -> Figure:
+    """What a continuous control costs: distance to the optimum with and without it.
+
+    Parameters
+    ----------
+    table
+        Columns degree, intervals, free, continuous (final times).
+    optimum
+        Final time of the indirect solution.
+    """
+    figure, axes = plt.subplots(figsize=(WIDTH, 2.8))
+    for colour, (intervals, group) in zip(CYCLE, table.groupby("intervals"), strict=False):
+        axes.semilogy(
+            group["degree"],
+            group["free"] - optimum,
+            "-o",
+            ms=3,
+            color=colour,
+            label=f"K = {intervals}",
+        )
+        axes.semilogy(group["degree"], group["continuous"] - optimum, "--s", ms=3, color=colour)
+    if table.empty:
+        mark_missing(axes)
+    axes.set_xlabel("degree N")
+    axes.set_ylabel(r"$t_f$ minus the optimum")
+    axes.set_xticks(sorted(table["degree"].unique()))
+    axes.legend(title="solid: free, dashed: continuous", ncols=2)
+    return figure
+
+
+def multistart_figure(starts: pd.DataFrame, optimum: float) -> Figure:
+    """Final times of the converged random starts for a single polynomial, printed values marked.
+
+    Parameters
+    ----------
+    starts
+        Columns degree, start, final_time, converged.
+    optimum
+        Final time of the indirect solution, which sets the scale; not a number if there is none.
+    """
+    figure, axes = plt.subplots(figsize=(WIDTH, 2.8))
+    printed = printed_cases("Table 3")["terminal time"]
+    for degree, group in starts[starts["converged"].astype(bool)].groupby("degree"):
+        axes.plot(group["final_time"], np.full(len(group), degree), "|", color=BLUE, ms=10)
+    axes.plot([], [], "|", color=BLUE, ms=10, label="a random start")
+    degrees = printed.index.get_level_values("degree")
+    axes.plot(printed, degrees, "D", color=VERMILION, ms=5, mfc="none", label="printed")
+    scale = _scale(optimum)
+    axes.set_xlim(3.2 * scale, 4.6 * scale)
+    axes.set_xlabel("$t_f$")
+    axes.set_ylabel("degree N")
+    axes.set_yticks(sorted(starts["degree"].unique()))
+    axes.legend()
+    return figure
+
+
+def _scale(optimum: float) -> float:
+    # The document's own transfer where there is no optimum.
+    return relative_length(optimum) if np.isfinite(optimum) else 1.0
+
+
+def _group_colours() -> dict[str, str]:
+    return {
+        "direct": VERMILION,
+        "direct multiple": GREEN,
+        "indirect multiple": BLUE,
+        "indirect": BLACK,
+    }
+
+
+def _surfaces(
+    table: pd.DataFrame, columns: dict[str, str], scale: dict[str, float] | None = None
+) -> Figure:
+    figure = plt.figure(figsize=(WIDTH, 3.1))
+    for place, (column, label) in enumerate(columns.items(), start=1):
+        axes = figure.add_subplot(1, 2, place, projection="3d")
+        grid = table.pivot(index="degree", columns="intervals", values=column)
+        x, y = np.meshgrid(grid.columns, grid.index)
+        height = grid.to_numpy(dtype=float) * (scale or {}).get(column, 1.0)
+        if min(height.shape, default=0) < 2 or np.isnan(height).all():
+            solved = not (height.size and np.isnan(height).all())
+            mark_missing(axes, "too few cases for a surface" if solved else NOT_CONVERGED)
+            axes.set_axis_off()
+            continue
+        axes.plot_surface(y, x, height, cmap="viridis", alpha=0.85, edgecolor="#333333", lw=0.4)
+        axes.set_xlabel("N", labelpad=-4)
+        axes.set_ylabel("K", labelpad=-4)
+        axes.set_title(label)
+        axes.set_xticks(grid.index)
+        axes.set_yticks(grid.columns)
+        axes.tick_params(labelsize=7, pad=-1)
+        axes.tick_params(axis="z", pad=2)
+        axes.zaxis.set_major_locator(MaxNLocator(5))
+        axes.ticklabel_format(axis="z", useOffset=False)
+        axes.view_init(25, 50)
+    return figure

@@ -1,0 +1,412 @@
+"""The runs of the study: which cases, from which start, with which settings, and their check.
+
+Every run returns a table of cases, a table of flown trajectories, and the cases that no start of
+ours solved. ``residual`` is the largest error of the conditions at the end, in canonical units,
+when the solution is flown anew by LSODA from the initial orbit; infinite where none was flown.
+
+What is the document's own (`as_published`) runs in the configuration's units, everything else in
+canonical ones.
+"""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from smallsat.evidence.not_converged import NotConverged
+from smallsat.optimal_control.nonlinear_program import IpoptSolver, SlsqpSolver, Solution
+from smallsat.studies.transfer.methods.bounds import (
+    Bounds,
+    near_bounds,
+    relative_length,
+    wide_bounds,
+)
+from smallsat.studies.transfer.methods.direct import (
+    Case,
+    control_history,
+    fitted_guess,
+    published_guess,
+    shooting_program,
+)
+from smallsat.studies.transfer.methods.extremals import (
+    FINE,
+    PUBLISHED_GUESS,
+    Found,
+    enough_steps,
+    find_extremals,
+)
+from smallsat.studies.transfer.methods.indirect import condition_error, fly_extremal
+from smallsat.studies.transfer.model.problem import COSTATES, STATES, TransferProblem
+from smallsat.studies.transfer.model.trajectory import COLUMNS, boundary_error, error_magnitude, fly
+from smallsat.studies.transfer.model.units import Units, canonical, units_of
+
+Config = dict[str, Any]
+Row = dict[str, Any]
+# What was tried, its solution, and columns of its row beside the usual ones.
+Try = tuple[str, Solution, Row]
+
+# Rows of a trajectory over the whole flight, shared among its intervals.
+SAMPLES = 480
+
+LABEL = ("method", "run", "degree", "intervals")
+TYPES = {"method": str, "run": str, "degree": int, "intervals": int, "segment": int}
+NO_EXTREMAL = "no extremal to start from"
+# Random starts beyond those asked for, where none of these converged.
+FURTHER_STARTS = 40
+# Solutions of random starts that are tried again with fine steps.
+WINNERS = 5
+# How many times more steps a solution gets that another integrator does not confirm.
+FINER = 4
+
+
+@dataclass(frozen=True)
+class Solved:
+    """Tables of an experiment.
+
+    Attributes
+    ----------
+    cases
+        One row a case; what is not solved has no final time and an infinite residual.
+    trajectories
+        Of the cases that were flown.
+    not_converged
+        Cases that no start of ours solved.
+    """
+
+    cases: pd.DataFrame
+    trajectories: pd.DataFrame
+    not_converged: list[NotConverged]
+
+
+def indirect(config: Config) -> Solved:
+    """Indirect shooting and indirect multiple shooting (Tables 1 and 2)."""
+    problem, units = _canonical(config)
+    found = find_extremals(
+        problem,
+        units,
+        (1, *config["intervals"]),
+        config["guess"],
+        config["numerics"]["steps"]["indirect"],
+    )
+    rows, frames, missing = [], [], []
+    for intervals, result in found.items():
+        row = {
+            "method": "indirect",
+            "run": "as published",
+            "degree": 0,
+            "intervals": intervals,
+            "unknowns": 10 * intervals - 4,
+            "final_time": np.nan,
+            "final_mass": np.nan,
+            "converged": False,
+            "status": "",
+            "iterations": np.nan,
+            "residual": np.inf,
+            "seconds": np.nan,
+        }
+        if isinstance(result, Found):
+            extremal = result.extremal
+            final, table = fly_extremal(problem, extremal, SAMPLES // intervals + 1)
+            by_continuation = "" if result.start == PUBLISHED_GUESS else f", by {result.start}"
+            row |= {
+                "final_time": extremal.final_time * units.time,
+                "final_mass": final[4] * units.mass,
+                "converged": True,
+                "status": f"residual vanished{by_continuation}",
+                "iterations": extremal.iterations,
+                "residual": condition_error(problem, final),
+                "seconds": extremal.seconds,
+            }
+            frames.append(_labelled(_in_units(table, units), row))
+        else:
+            row["status"] = result.status
+            missing.append(result)
+        rows.append(row)
+    empty = [*LABEL, *COLUMNS, *COSTATES, "hamiltonian"]
+    return Solved(pd.DataFrame(rows), _joined(frames, empty), missing)
+
+
+def as_published(config: Config, intervals: int) -> Solved:
+    """Direct shooting from the document's guess, in its basis and bounds, by an SQP method.
+
+    Each case is also stopped early, at the looser tolerances of the configuration; only the run at
+    ``as_published_tolerance`` keeps its trajectory. A run that fails is the document's method's
+    own result, not a case that we could not solve.
+    """
+    problem = TransferProblem.from_config(config)
+    units = units_of(problem)
+    numerics, bounds = config["numerics"], config["bounds"]
+    strict = numerics["as_published_tolerance"]
+    multiple = intervals > 1
+    rows, frames = [], []
+    for degree in config["degrees"]:
+        case = Case(degree, intervals, "global")
+        program = shooting_program(
+            problem,
+            case,
+            numerics["steps"]["as_published"],
+            coefficient_bounds=tuple(bounds["coefficient"]),
+            state_bounds=tuple(bounds["interior_state"]),
+            time_bounds=tuple(bounds["final_time_multiple" if multiple else "final_time_single"]),
+        )
+        solver = SlsqpSolver(program)
+        guess = published_guess(case, config["guess"])
+        for tolerance in (strict, *numerics["early_stopping_tolerances"]):
+            solution = solver.solve(guess, tolerance)
+            row = _direct_row("as published", case, solution) | {"tolerance": tolerance}
+            if tolerance == strict:
+                final, table = fly(problem, control_history(case, solution.variables), _share(case))
+                errors = np.array(problem.terminal_error(final)) / units.state[[0, 2, 3]]
+                row |= {"final_mass": final[4], "residual": error_magnitude(errors)}
+                frames.append(_labelled(table, row))
+            rows.append(row)
+    return Solved(pd.DataFrame(rows), _joined(frames, [*LABEL, *COLUMNS]), [])
+
+
+def converged(config: Config) -> Solved:
+    """Direct multiple shooting in a local basis, started from the indirect solution, by IPOPT."""
+    return _near_extremal(config, "converged", continuous=False)
+
+
+def continuous(config: Config) -> Solved:
+    """The same with a control that is continuous at the interval ends (the future work)."""
+    return _near_extremal(config, "continuous", continuous=True)
+
+
+def multistart(config: Config) -> tuple[Solved, pd.DataFrame]:
+    """Best single polynomial of each degree over many random starts.
+
+    Returns
+    -------
+    solved
+        The best solution of each degree, solved once more with fine steps.
+    starts
+        One row a start: degree, start, final_time, converged.
+    """
+    problem, units = _canonical(config)
+    numerics = config["numerics"]
+    extremal = extremal_table(config)
+    seeds = np.random.SeedSequence(numerics["seed"]).spawn(len(config["degrees"]))
+    starts: list[Row] = []
+    attempts = []
+    for degree, seed in zip(config["degrees"], seeds, strict=True):
+        case = Case(degree, 1, "local")
+        if isinstance(extremal, NotConverged):
+            attempts.append(_not_started(case, "converged", extremal))
+            continue
+        final_time = float(extremal["t"].iloc[-1])
+        bounds: dict[str, Any] = {
+            "coefficient_bounds": tuple(config["bounds"]["coefficient"]),
+            "time_bounds": (0.0, 0.9 * problem.longest_time),
+        }
+        steps = {
+            name: enough_steps(numerics["steps"][name], problem, final_time)
+            for name in ("as_published", "converged")
+        }
+        coarse = SlsqpSolver(
+            shooting_program(problem, case, steps["as_published"], **bounds), expand=True
+        )
+        found: list[Solution] = []
+        asked = numerics["multistart"]
+        for start in range(asked + FURTHER_STARTS):
+            if start >= asked and found:
+                break
+            (child,) = seed.spawn(1)
+            guess = _random_guess(case, final_time, np.random.default_rng(child))
+            solution = coarse.solve(guess, 1e-8, 200)
+            good = solution.converged and solution.violation < 1e-8
+            # A control too wild for the fixed steps shows in a flight with an adaptive method.
+            if good:
+                final, _ = fly(problem, control_history(case, solution.variables))
+                good = boundary_error(problem, final) < 1e-5
+            starts.append(
+                {
+                    "degree": degree,
+                    "start": start,
+                    "final_time": solution.objective * units.time,
+                    "converged": good,
+                }
+            )
+            if good:
+                found.append(solution)
+        winners = sorted(found, key=lambda one: one.objective)[:WINNERS]
+        tries = _polished(problem, case, winners, steps["converged"], bounds)
+        nothing = "" if found else f"{asked + FURTHER_STARTS} random starts: none converged"
+        attempts.append(_first_converged(problem, case, "converged", tries, nothing))
+    columns = ["degree", "start", "final_time", "converged"]
+    return _collect(units, attempts), pd.DataFrame(starts, columns=columns)
+
+
+def extremal_table(config: Config) -> pd.DataFrame | NotConverged:
+    """The extremal of single shooting as a table of `fly_extremal`, in canonical units."""
+    problem, units = _canonical(config)
+    steps = config["numerics"]["steps"]["indirect"]
+    result = find_extremals(problem, units, (1,), config["guess"], steps)[1]
+    if isinstance(result, NotConverged):
+        return result
+    return fly_extremal(problem, result.extremal, SAMPLES + 1)[1]
+
+
+@dataclass(frozen=True)
+class _Attempted:
+    row: Row
+    trajectory: pd.DataFrame
+    not_converged: NotConverged | None = None
+
+
+def _near_extremal(config: Config, run: str, *, continuous: bool) -> Solved:
+    problem, units = _canonical(config)
+    extremal = extremal_table(config)
+    cases = [Case(n, k, "local") for n in config["degrees"] for k in config["intervals"]]
+    steps = config["numerics"]["steps"]["converged"]
+    return _collect(
+        units,
+        [
+            _not_started(case, run, extremal)
+            if isinstance(extremal, NotConverged)
+            else _first_converged(
+                problem, case, run, _tries(problem, case, extremal, steps, continuous), ""
+            )
+            for case in cases
+        ],
+    )
+
+
+def _tries(
+    problem: TransferProblem, case: Case, extremal: pd.DataFrame, steps: int, continuous: bool
+) -> Iterator[Try]:
+    """Solutions from the extremal: near it, farther off, with finer steps."""
+    guess = fitted_guess(case, extremal)
+    steps = enough_steps(steps, problem, float(extremal["t"].iloc[-1]))
+    near, wide = near_bounds(case, guess, extremal), wide_bounds(case, problem)
+    ways: tuple[tuple[str, Bounds, int, Row], ...] = (
+        ("near the extremal", near, steps, {"mu_init": 1e-4}),
+        ("in wide bounds", wide, steps, {}),
+        ("near the extremal with finer steps", near, FINER * steps, {"mu_init": 1e-4}),
+    )
+    for name, (lower, upper), count, options in ways:
+        program = shooting_program(problem, case, count, continuous=continuous)
+        program.lower[:], program.upper[:] = lower, upper
+        solution = IpoptSolver(program, **options).solve(guess)
+        z = solution.variables
+        yield name, solution, {"bound_slack": float(np.minimum(z - lower, upper - z).min())}
+
+
+def _polished(
+    problem: TransferProblem, case: Case, winners: list[Solution], steps: int, bounds: Row
+) -> Iterator[Try]:
+    """Solutions of random starts, best first, solved once more with fine steps, then finer ones."""
+    for count in (steps, FINER * steps):
+        program = shooting_program(problem, case, count, **bounds)
+        solver = IpoptSolver(program, mu_init=1e-6)
+        for place, one in enumerate(winners):
+            yield f"random start {place + 1}, {count} steps", solver.solve(one.variables), {}
+
+
+def _first_converged(
+    problem: TransferProblem,
+    case: Case,
+    run: str,
+    tries: Iterable[Try],
+    nothing: str,
+) -> _Attempted:
+    """The first solution that converged and meets the end when flown by another integrator."""
+    tried, residual = [nothing] if nothing else [], np.inf
+    for name, solution, columns in tries:
+        final, table = fly(problem, control_history(case, solution.variables), _share(case))
+        residual = boundary_error(problem, final)
+        if solution.converged and residual < FINE:
+            row = _direct_row(run, case, solution) | columns
+            row |= {"final_mass": final[4], "residual": residual}
+            return _Attempted(row, _labelled(table, row))
+        tried.append(f"{name}: {solution.status}, error at the end {residual:.1e}")
+    return _Attempted(
+        _missing_row(run, case, tried[-1]),
+        pd.DataFrame(),
+        NotConverged(_name(run, case), tried[-1], residual, "; ".join(tried)),
+    )
+
+
+def _not_started(case: Case, run: str, extremal: NotConverged) -> _Attempted:
+    return _Attempted(
+        _missing_row(run, case, NO_EXTREMAL),
+        pd.DataFrame(),
+        NotConverged(_name(run, case), NO_EXTREMAL, np.inf, extremal.tried),
+    )
+
+
+def _collect(units: Units, attempts: Iterable[_Attempted]) -> Solved:
+    rows, frames, missing = [], [], []
+    for one in attempts:
+        scale = {"final_time": units.time, "final_mass": units.mass}
+        rows.append(one.row | {name: one.row[name] * unit for name, unit in scale.items()})
+        if one.not_converged:
+            missing.append(one.not_converged)
+        else:
+            frames.append(_in_units(one.trajectory, units))
+    return Solved(pd.DataFrame(rows), _joined(frames, [*LABEL, *COLUMNS]), missing)
+
+
+def _canonical(config: Config) -> tuple[TransferProblem, Units]:
+    given = TransferProblem.from_config(config)
+    return canonical(given), units_of(given)
+
+
+def _in_units(table: pd.DataFrame, units: Units) -> pd.DataFrame:
+    """A trajectory in canonical units as one in the configuration's."""
+    scales = dict(zip(STATES, units.state, strict=True))
+    scales |= dict(zip(COSTATES, units.costate, strict=True))
+    scales |= {"t": units.time, "hamiltonian": units.mass / units.time}
+    return table.assign(**{n: table[n] * unit for n, unit in scales.items() if n in table})
+
+
+def _joined(frames: list[pd.DataFrame], columns: Iterable[str]) -> pd.DataFrame:
+    flown = [frame for frame in frames if len(frame)]
+    if flown:
+        return pd.concat(flown, ignore_index=True)
+    return pd.DataFrame({name: pd.Series(dtype=TYPES.get(name, float)) for name in columns})
+
+
+def _name(run: str, case: Case) -> str:
+    method = "direct shooting" if case.intervals == 1 else "direct multiple shooting"
+    return f"{method}, {run}, N = {case.degree}, K = {case.intervals}"
+
+
+def _direct_row(run: str, case: Case, solution: Solution) -> Row:
+    return {
+        "method": "direct",
+        "run": run,
+        "degree": case.degree,
+        "intervals": case.intervals,
+        "unknowns": case.size,
+        "final_time": solution.objective,
+        "final_mass": np.nan,
+        "converged": solution.converged,
+        "status": solution.status,
+        "iterations": solution.iterations,
+        "residual": np.nan,
+        "seconds": solution.seconds,
+    }
+
+
+def _missing_row(run: str, case: Case, status: str) -> Row:
+    nothing = Solution(np.empty(0), np.nan, False, status, 0, np.inf, np.nan)
+    return _direct_row(run, case, nothing) | {"iterations": np.nan, "residual": np.inf}
+
+
+def _labelled(table: pd.DataFrame, row: Row) -> pd.DataFrame:
+    return table.assign(**{name: row[name] for name in LABEL})[[*LABEL, *table.columns]]
+
+
+def _share(case: Case) -> int:
+    return SAMPLES // case.intervals + 1
+
+
+def _random_guess(case: Case, final_time: float, random: np.random.Generator) -> np.ndarray:
+    # Angles of a few radians at the interval's ends, and a flight of plausible length: for the
+    # document's transfer, of 3 to 6 time units.
+    coefficients = random.normal(0.0, 3.0, case.degree + 1)
+    scale = relative_length(final_time)
+    return np.concatenate([coefficients, [random.uniform(3.0 * scale, 6.0 * scale)]])

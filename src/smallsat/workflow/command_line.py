@@ -1,0 +1,101 @@
+"""The command ``snakemake`` in this environment: Snakemake's own, called as a person means it.
+
+Snakemake takes every word after ``--config`` for a setting and every word after ``--configfile``
+for a file, a target too. Here a target is understood wherever it stands, a bad setting or file is
+answered in one line, and the user's own settings of Python and Jupyter stay out.
+"""
+
+import os
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from smallsat.workflow.isolation import isolated
+
+PROJECT = Path(__file__).parents[3]
+
+# What only a target begins with, also one that ends in .json.
+_RESULT_FOLDERS = ("figures/", "data/results/", "report/build/")
+
+
+def _is_setting(word: str) -> bool:
+    return "=" in word
+
+
+def _is_file(word: str) -> bool:
+    return Path(word).suffix in (".yaml", ".yml", ".json") and not word.startswith(_RESULT_FOLDERS)
+
+
+_TAKES: dict[str, Callable[[str], bool]] = {
+    "--config": _is_setting,
+    "-C": _is_setting,
+    "--configfile": _is_file,
+    "--configfiles": _is_file,
+}
+
+
+def understood(words: Sequence[str]) -> list[str]:
+    """The words of a call, with the targets first that an option would have swallowed.
+
+    The first word after an option is always the option's own, so that a slip in it is refused.
+    """
+    targets: list[str] = []
+    rest: list[str] = []
+    belongs: Callable[[str], bool] | None = None
+    for position, word in enumerate(words):
+        if word == "--":
+            return [*targets, *rest, *words[position:]]
+        if word.startswith("-"):
+            belongs = _TAKES.get(word)
+        elif belongs is not None and words[position - 1] not in _TAKES and not belongs(word):
+            targets.append(word)
+            continue
+        rest.append(word)
+    return [*targets, *rest]
+
+
+def check_settings(words: Sequence[str]) -> None:
+    """Refuse settings and files that Snakemake would answer with a traceback.
+
+    Raises
+    ------
+    InputError
+        Naming the setting or file and what is wrong with it.
+    """
+    from smallsat.config import parse_entry, read_overlay
+
+    option = ""
+    for word in words:
+        if word == "--":
+            return
+        values = [word]
+        if word.startswith("-"):
+            option, _, value = word.partition("=")
+            values = [value] if value else []
+        for value in values:
+            if option in ("--config", "-C"):
+                parse_entry(value)
+            elif option in ("--configfile", "--configfiles"):
+                read_overlay(Path(value))
+
+
+def main() -> None:
+    """Run Snakemake with the words of this call."""
+    from snakemake.cli import main as run_snakemake
+
+    words = understood(sys.argv[1:])
+    check_settings(words)
+    sys.argv = ["snakemake", *words]
+    run_snakemake()
+
+
+def snakemake() -> None:
+    """Entry point: starts anew with an environment in which no setting of the user's is left."""
+    call = [sys.executable, "-m", "smallsat.workflow.command_line", *sys.argv[1:]]
+    os.execve(sys.executable, call, isolated(os.environ, PROJECT / ".cache"))
+
+
+if __name__ == "__main__":
+    from smallsat.errors import report_input_errors
+
+    report_input_errors(main)
