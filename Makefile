@@ -13,7 +13,7 @@ PIP := $(VENV)/bin/python -m pip install --quiet --disable-pip-version-check
 
 all: $(VENV)/installed
 	@snakemake all
-	@python -m smallsat.evidence summary data/results/verdicts.csv
+	@python -m smallsat summary data/results/verdicts.csv
 
 # An environment knows its folder by name: in a moved or copied checkout it is made anew.
 ifneq "$(shell cat $(VENV)/installed 2>/dev/null)" "$(CURDIR)"
@@ -29,9 +29,10 @@ $(VENV)/installed: requirements.lock pyproject.toml
 	$(PIP) --no-deps --no-build-isolation --editable .
 	@printf '%s' "$(CURDIR)" > $@
 
-# The published-value tests read verdicts of their own, in runs/tests/; Snakemake makes them first.
+# The published-value tests read verdicts of their own, in runs/tests/; Snakemake makes them first,
+# and each of its jobs notes the files that it opens.
 test: $(VENV)/installed
-	@snakemake verdicts --configfile config/tests.yaml
+	@SMALLSAT_OPENED=$(CURDIR)/runs/tests/opened snakemake verdicts --configfile config/tests.yaml
 	@python -m pytest
 
 # Modest changes of every study, one line each: done, refused with the reason, or not converged.

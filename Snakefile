@@ -11,13 +11,14 @@ import re
 import sys
 from pathlib import Path
 
+from smallsat.catalogue import read_catalogue
 from smallsat.errors import InputError
 from smallsat.evidence.ledger import read_artefacts, read_ledger
-from smallsat.workflow.isolation import isolate
-from smallsat.studies.racing.parameters import parameters as racing_parameters
-from smallsat.workflow.run import read_run
-from smallsat.workflow.sources import source_files
 from smallsat.strict_yaml import read_yaml
+from smallsat.workflow.figures import drawn, read_runs
+from smallsat.workflow.isolation import isolate
+from smallsat.workflow.run import read_run
+from smallsat.workflow.sources import named_modules, notebook_modules, source_files
 from smallsat.workflow.targets import refusal
 
 
@@ -27,15 +28,21 @@ container: "docker://python:3.11"
 
 
 ROOT = Path(workflow.basedir)
+PUBLISHED = ROOT / "data/published"
 
 isolate(ROOT / ".cache")
 
 try:
     given = workflow.config_settings
     run = read_run(ROOT, given.configfiles, given.config_args or [])
-    config, RUN_FOLDER = run.config, run.folder
-    read_ledger(ROOT / "data/published/values.csv")
-    ARTEFACTS = read_artefacts(ROOT / "data/published/artefacts.csv")
+    CONFIG, RUN_FOLDER = run.config, run.folder
+    STUDIES = [study.name for study in read_catalogue(PUBLISHED)]
+    for study in STUDIES:
+        read_ledger(PUBLISHED / study / "values.csv")
+    ARTEFACTS = {study: read_artefacts(PUBLISHED / study / "artefacts.csv") for study in STUDIES}
+    FIGURES = {study: read_runs(ROOT / "notebooks" / study) for study in STUDIES}
+    # Without the figures of cases that a what-if run leaves out.
+    RUNS = {study: [drawn(run, CONFIG[study]) for run in FIGURES[study]] for study in STUDIES}
 except InputError as error:
     sys.exit(f"smallsat: {error}")
 
@@ -43,17 +50,15 @@ except InputError as error:
 workdir: ROOT / RUN_FOLDER
 
 
-STUDIES = ["transfer", "mars", "slew", "racing", "rendezvous"]
-
-
 include: "rules/common.smk"
-include: "rules/transfer.smk"
-include: "rules/mars.smk"
-include: "rules/slew.smk"
-include: "rules/racing.smk"
-include: "rules/rendezvous_engine.smk"
-include: "rules/rendezvous_studies.smk"
-include: "rules/rendezvous.smk"
+
+
+for study in STUDIES:
+
+    include: f"rules/{study}.smk"
+
+
+include: "rules/notebooks.smk"
 include: "rules/evidence.smk"
 include: "rules/report.smk"
 
@@ -63,8 +68,8 @@ rule all:
     input:
         rules.report.output,
         "data/results/verdicts.accepted",
-        TABLES,
-        FIGURES,
+        [report_tables(study) for study in STUDIES],
+        [report_figures(study) for study in STUDIES],
     log:
         "logs/all.log",
     message:

@@ -13,7 +13,7 @@ import pandas as pd
 from smallsat.config import read_yaml
 from smallsat.statistics.random_streams import stream
 from smallsat.studies.rendezvous.monte_carlo.cases import base
-from smallsat.studies.rendezvous.monte_carlo.studies import states_table
+from smallsat.studies.rendezvous.monte_carlo.initial_states import states_table
 from smallsat.studies.rendezvous.monte_carlo.tables import STATE
 from smallsat.studies.rendezvous.simulation.closed_loop import manoeuvres
 from smallsat.studies.rendezvous.simulation.disturbances import disturbances

@@ -1,4 +1,4 @@
-# What these files share: paths, import closures, and the files that one artefact consists of.
+# What these files share: paths, import closures, and how a step of a study becomes one of them.
 
 
 def project(path):
@@ -6,48 +6,19 @@ def project(path):
     return os.path.relpath(ROOT / path)
 
 
-def sources(*modules):
+def published(study, *names):
+    """Files among the published values of a study."""
+    return [project(f"data/published/{study}/{name}") for name in names]
+
+
+def results(study, *names):
+    """Files among the results of a study."""
+    return [f"data/results/{study}/{name}" for name in names]
+
+
+def sources(command, *modules):
     """Source files that a command runs, so that editing any of them reruns the rule."""
-    return [os.path.relpath(path) for path in source_files(*modules)]
-
-
-def named_modules(study):
-    """Modules that the errata and claims of a study name."""
-    return sorted(
-        {
-            entry[key].partition(":")[0]
-            for name, key in (("errata", "proof"), ("claims", "predicate"))
-            for entry in read_yaml(ROOT / f"data/published/{study}/{name}.yaml")
-        }
-    )
-
-
-def figure_files(*stems):
-    """The files of figures: three formats and the data drawn."""
-    return [f"{stem}.{suffix}" for stem in stems for suffix in ("svg", "pdf", "png", "csv")]
-
-
-def targets(document, *kinds):
-    """Targets of a document's artefacts, in the order of the document; those built so far."""
-    return [
-        row["target"]
-        for row in ARTEFACTS
-        if row["document"] == document
-        and row["kind"] in kinds
-        and row["target"]
-        and row["target"] not in LEFT_OUT
-    ]
-
-
-def extra_tables(study):
-    """Tables beyond the document that the report of a study shows."""
-    return [entry["table"] for entry in EXTRAS.get(study, []) if entry.get("table")]
-
-
-def report_figures(study):
-    """Figures that the report of a study shows."""
-    extras = [stem for entry in EXTRAS.get(study, []) for stem in entry.get("figures") or []]
-    return targets(study, "figure") + [f"{stem}.svg" for stem in extras]
+    return [os.path.relpath(path) for path in source_files("smallsat.__main__", command, *modules)]
 
 
 def as_json(value):
@@ -55,28 +26,119 @@ def as_json(value):
     return json.dumps(value, sort_keys=True)
 
 
-# Tables and figures that go beyond a document.
-EXTRAS = {
-    study: read_yaml(path) or []
-    for study in STUDIES
-    if (path := ROOT / f"data/published/{study}/extras.yaml").exists()
-}
+def figure_files(*stems):
+    """The files of figures: three formats and the data drawn."""
+    return [f"{stem}.{suffix}" for stem in stems for suffix in ("svg", "pdf", "png", "csv")]
 
-# What the verdicts of a study rest on; each study's rule file adds its own.
-STUDY_RESULTS = {}
 
-# Cases that no solver solved, a table a study.
-NOT_CONVERGED = [f"data/results/{study}/not-converged.csv" for study in STUDIES]
+def targets(study, *kinds):
+    """Targets of a document's artefacts, in the order of the document; those built so far."""
+    return [
+        row["target"]
+        for row in ARTEFACTS[study]
+        if row["kind"] in kinds and row["target"] and row["target"] not in LEFT_OUT
+    ]
+
+
+def extras(study):
+    """Entries of what a study shows beyond its document."""
+    path = ROOT / f"data/published/{study}/extras.yaml"
+    return read_yaml(path) or [] if path.exists() else []
+
+
+def report_tables(study):
+    """Tables that the report of a study shows, the document's own first."""
+    beyond = [entry["table"] for entry in extras(study) if entry.get("table")]
+    return targets(study, "table") + beyond
+
+
+def report_figures(study):
+    """Figures that the report of a study shows, the document's own first."""
+    beyond = [stem for entry in extras(study) for stem in entry.get("figures") or []]
+    return targets(study, "figure") + [f"{stem}.svg" for stem in beyond]
+
+
+def step(
+    study, name, makes, *, runs="", reads=(), clock=(), part="", shard="", config=None, **more
+):
+    """A computing step of a study becomes a rule.
+
+    Parameters
+    ----------
+    study, name
+        Of the study and of the rule, which is `<study>_<name>`.
+    makes, clock
+        What it makes in the study's results; `clock` differs from build to build, as seconds do,
+        and is not judged.
+    runs
+        Module of the study's steps that it runs; else the one of its own name.
+    reads
+        Results of the study that it reads.
+    part, shard
+        Which part of the step, and which share of it, such as `1-of-4`.
+    config
+        What it depends on; else the study's whole section.
+    more
+        `published`: names of published files that it reads; `files`: other files; `priority`.
+    """
+    implementation = f"smallsat.studies.{study}.steps.{runs or name}"
+    words = [
+        *[f"--published {project(f'data/published/{study}')}"] * bool(more.get("published")),
+        *[f"--part {part}"] * bool(part),
+        *[f"--shard {shard}"] * bool(shard),
+    ]
+    MADE[study] += results(study, *makes, *clock)
+
+    rule:
+        name:
+            f"{study}_{name}".replace("-", "_")
+        input:
+            sources=sources("smallsat.workflow.run_step", implementation),
+            published=published(study, *more.get("published", ())),
+            files=more.get("files", []),
+            results=results(study, *reads),
+        output:
+            results(study, *makes, *clock),
+        log:
+            f"logs/{study}/{name}.log",
+        benchmark:
+            f"logs/{study}/{name}.benchmark.tsv"
+        priority: more.get("priority", 0)
+        params:
+            study=study,
+            step=runs or name,
+            words=" ".join(words),
+            config=as_json(config or CONFIG[study]),
+        message:
+            f"{study}: {name}"
+        shell:
+            "python -m smallsat run {params.study} {params.step} --config {params.config:q}"
+            " --results data/results/{params.study} {params.words} > {log} 2>&1"
+
 
 # Artefacts of cases that a what-if run leaves out.
-LEFT_OUT = []
+LEFT_OUT = [
+    f"{stem}.svg"
+    for study in STUDIES
+    for whole, run in zip(FIGURES[study], RUNS[study], strict=True)
+    for stem in whole.stems
+    if stem not in run.stems
+]
 
 # Films, made only when asked for.
 ANIMATIONS = []
 
+# Files that the steps and notebooks of a study make.
+MADE = {study: [] for study in STUDIES}
+
+# What the verdicts of a study rest on; each study's rule file says it.
+JUDGED = {}
+
+# Cases that no solver solved, a table a study.
+NOT_CONVERGED = [f"data/results/{study}/not-converged.csv" for study in STUDIES]
+
 # A notebook is run by papermill; the executed notebook is an output for the reader.
 NOTEBOOK = (
-    "python -m smallsat.workflow.notebook {input.notebook} {output.notebook}"
+    "python -m smallsat notebook {input.notebook} {output.notebook}"
     " --parameters {params.parameters:q} > {log} 2>&1"
 )
-NOTEBOOK_SOURCES = sources("smallsat.workflow.notebook")

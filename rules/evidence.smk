@@ -1,5 +1,11 @@
 # Evidence: errata proven, claims and values judged, study by study; then all verdicts in one table.
 
+SUMMARY = (
+    "python -m smallsat summary {input.verdicts} --published {params.published} {params.what_if}"
+)
+LEDGERS = [file for study in STUDIES for file in published(study, "study.yaml", "values.csv")]
+WHAT_IF = "" if RUN_FOLDER == "." else "--what-if"
+
 
 for study in STUDIES:
 
@@ -7,33 +13,34 @@ for study in STUDIES:
         name:
             f"{study}_verdicts"
         input:
-            ledger=project("data/published/values.csv"),
-            entries=[
-                project(f"data/published/{study}/{name}.yaml")
-                for name in ("rules", "bindings", "errata", "claims")
-            ],
-            # Some proofs compare captions.
-            artefacts=project("data/published/artefacts.csv"),
-            # The judge loads a study's proofs and predicates by name.
-            sources=sources("smallsat.evidence.__main__", *named_modules(study)),
-            results=STUDY_RESULTS[study],
+            published=published(
+                study,
+                "values.csv",
+                "rules.yaml",
+                "bindings.yaml",
+                "errata.yaml",
+                "claims.yaml",
+                # Some proofs compare captions.
+                "artefacts.csv",
+            ),
+            # The judge loads a study's bindings, proofs and predicates by name.
+            sources=sources("smallsat.evidence.judge", *named_modules(PUBLISHED / study)),
+            results=results(study, *JUDGED[study]),
         output:
-            errata=f"data/results/{study}/errata.csv",
-            claims=f"data/results/{study}/claims.csv",
-            verdicts=f"data/results/{study}/verdicts.csv",
+            results(study, "errata.csv", "claims.csv", "verdicts.csv"),
         log:
             f"logs/{study}/verdicts.log",
         benchmark:
             f"logs/{study}/verdicts.benchmark.tsv"
         params:
             study=study,
-            published=lambda w, input: os.path.dirname(input.ledger),
-            config=as_json({study: config[study]}),
+            published=lambda w, input: os.path.dirname(input.published[0]),
+            config=as_json({study: CONFIG[study]}),
         message:
             f"{study}: prove the errata, judge values and claims"
         shell:
-            "python -m smallsat.evidence study {params.study} --config {params.config:q}"
-            " --published {params.published} --results data/results/{params.study} > {log} 2>&1"
+            "python -m smallsat judge --config {params.config:q} --published {params.published}"
+            " --results data/results/{params.study} > {log} 2>&1"
 
     # The printed tables, each cell with what we computed and its verdict.
     rule:
@@ -41,10 +48,11 @@ for study in STUDIES:
             f"{study}_tables"
         input:
             notebook=project("notebooks/tables.ipynb"),
-            sources=NOTEBOOK_SOURCES
-            + sources("smallsat.evidence.ledger", "smallsat.results", "smallsat.report.values"),
-            artefacts=project("data/published/artefacts.csv"),
-            verdicts=f"data/results/{study}/verdicts.csv",
+            sources=sources(
+                "smallsat.workflow.notebook", *notebook_modules(ROOT / "notebooks/tables.ipynb")
+            ),
+            artefacts=published(study, "artefacts.csv"),
+            verdicts=results(study, "verdicts.csv"),
         output:
             targets(study, "table"),
             notebook=f"data/results/{study}/notebooks/tables.ipynb",
@@ -55,9 +63,8 @@ for study in STUDIES:
         params:
             parameters=as_json(
                 {
-                    "document": study,
-                    "artefacts_path": project("data/published/artefacts.csv"),
-                    "verdicts_path": f"data/results/{study}/verdicts.csv",
+                    "artefacts": project(f"data/published/{study}/artefacts.csv"),
+                    "verdicts": f"data/results/{study}/verdicts.csv",
                 }
             ),
         message:
@@ -65,11 +72,23 @@ for study in STUDIES:
         shell:
             NOTEBOOK
 
+    rule:
+        name:
+            study
+        input:
+            targets(study, "table", "figure"),
+            [path for path in MADE[study] if path.startswith("data/results")],
+            [f"{stem}.svg" for run in RUNS[study] for stem in run.stems],
+            results(study, "errata.csv", "claims.csv", "verdicts.csv"),
+        log:
+            f"logs/{study}/all.log",
+        message:
+            f"{study}: all tables, figures and verdicts are there"
+
 
 rule merge_verdicts:
     input:
-        ledger=project("data/published/values.csv"),
-        sources=sources("smallsat.evidence.__main__"),
+        sources=sources("smallsat.evidence.merge"),
         verdicts=[f"data/results/{study}/verdicts.csv" for study in STUDIES],
     output:
         "data/results/verdicts.csv",
@@ -77,20 +96,18 @@ rule merge_verdicts:
         "logs/merge_verdicts.log",
     benchmark:
         "logs/merge_verdicts.benchmark.tsv"
-    params:
-        published=lambda w, input: os.path.dirname(input.ledger),
     message:
         "Put all verdicts into one table"
     shell:
-        "python -m smallsat.evidence merge --published {params.published} --output {output}"
-        " {input.verdicts} > {log} 2>&1"
+        "python -m smallsat merge {input.verdicts} --output {output} > {log} 2>&1"
 
 
 # Fails where a verdict is wrong, so that a build with a mismatch does not pass for one without.
 rule accept_verdicts:
     input:
+        sources=sources("smallsat.evidence.summary"),
         verdicts="data/results/verdicts.csv",
-        ledger=project("data/published/values.csv"),
+        ledgers=LEDGERS,
         not_converged=NOT_CONVERGED,
     output:
         touch("data/results/verdicts.accepted"),
@@ -99,13 +116,12 @@ rule accept_verdicts:
     benchmark:
         "logs/accept_verdicts.benchmark.tsv"
     params:
-        published=lambda w, input: os.path.dirname(input.ledger),
-        what_if="" if RUN_FOLDER == "." else "--what-if",
+        published=lambda w, input: Path(input.ledgers[0]).parents[1],
+        what_if=WHAT_IF,
     message:
         "Check that no verdict is wrong"
     shell:
-        "python -m smallsat.evidence summary {input.verdicts} --published {params.published}"
-        " {params.what_if} > {log} 2>&1"
+        f"{SUMMARY} > {{log}} 2>&1"
 
 
 rule verdicts:
@@ -121,15 +137,14 @@ rule verdicts:
 rule check:
     input:
         verdicts="data/results/verdicts.csv",
-        ledger=project("data/published/values.csv"),
+        ledgers=LEDGERS,
         not_converged=NOT_CONVERGED,
     log:
         "logs/check.log",
     params:
-        published=lambda w, input: os.path.dirname(input.ledger),
-        what_if="" if RUN_FOLDER == "." else "--what-if",
+        published=lambda w, input: Path(input.ledgers[0]).parents[1],
+        what_if=WHAT_IF,
     message:
         "Count the verdicts"
     shell:
-        "python -m smallsat.evidence summary {input.verdicts} --published {params.published}"
-        " {params.what_if} | tee {log}; exit ${{PIPESTATUS[0]}}"
+        f"{SUMMARY} | tee {{log}}; exit ${{{{PIPESTATUS[0]}}}}"

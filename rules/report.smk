@@ -1,151 +1,93 @@
-# The report: its content collected from the results, then typeset as a PDF and as a web page.
-# It is built whatever the verdicts are, so that a wrong one can be read about.
-FIGURES = [figure for study in STUDIES for figure in report_figures(study)]
-TABLES = [table for study in STUDIES for table in targets(study, "table") + extra_tables(study)]
-# The text of each study's method.
-CHAPTERS = [
-    project(path) for study in STUDIES if (ROOT / (path := f"report/chapters/{study}.typ")).exists()
-]
-# Seconds, the only results that differ from run to run.
-STUDY_TIMINGS = [f"data/results/{study}/timings.csv" for study in ("transfer", "slew", "racing")]
-
-
-rule report_content:
-    input:
-        sources=sources("smallsat.report.__main__", "smallsat.report.content"),
-        published=[project(f"data/published/{name}.csv") for name in ("values", "artefacts")],
-        extras=[project(f"data/published/{study}/extras.yaml") for study in EXTRAS],
-        documents=project("report/documents.yaml"),
-        chapters=CHAPTERS,
-        default=project("config/default.yaml"),
-        verdicts="data/results/verdicts.csv",
-        findings=[
-            f"data/results/{study}/{name}.csv"
-            for study in STUDIES
-            for name in ("errata", "claims")
-        ],
-        not_converged=NOT_CONVERGED,
-        timings=STUDY_TIMINGS,
-        tables=TABLES,
-        # The notebooks that draw them are listed in the report.
-        figures=FIGURES,
-    output:
-        "report/build/content.json",
-    log:
-        "logs/report/content.log",
-    benchmark:
-        "logs/report/content.benchmark.tsv"
-    params:
-        project=lambda _, input: Path(input.documents).parent.parent,
-        config=as_json(config),
-        left_out=as_json(LEFT_OUT),
-    message:
-        "Collect the content of the report"
-    shell:
-        "python -m smallsat.report content --project {params.project} --config {params.config:q}"
-        " --left-out {params.left_out:q} --output {output} > {log} 2>&1"
-
-
+# The report: its content collected from the results of a run, then typeset as a PDF and as a web page.
+# It is built whatever the verdicts are, so that a wrong one can be read about. Each study has a report
+# of its own, for a what-if that leaves the others as they are.
 TEMPLATES = [
     project(path.relative_to(ROOT))
     for path in sorted((ROOT / "report").rglob("*"))
     if path.suffix in (".typ", ".css") and path.name != "report.typ"
 ]
-TYPESET = (
-    "(python -m smallsat.report compile {input.content} --project {params.project}"
-    " --output {output.pdf}"
-    " && python -m smallsat.report compile {input.content} --project {params.project}"
-    " --output {output.html}) > {log} 2>&1"
-)
+TIMINGS = [path for study in STUDIES for path in MADE[study] if Path(path).name == "timings.csv"]
+REPORTS = {"report": STUDIES} | {study: [study] for study in STUDIES}
 
-
-rule report:
-    input:
-        sources=sources("smallsat.report.__main__", "smallsat.report.typesetting"),
-        template=project("report/report.typ"),
-        parts=TEMPLATES,
-        content="report/build/content.json",
-        # The page shows the SVG, the PDF takes in the PDF.
-        figures=FIGURES,
-        drawings=[str(Path(figure).with_suffix(".pdf")) for figure in FIGURES],
-    output:
-        pdf="report/build/report.pdf",
-        html="report/build/report.html",
-    log:
-        "logs/report/report.log",
-    benchmark:
-        "logs/report/report.benchmark.tsv"
-    params:
-        project=lambda _, input: Path(input.template).parent.parent,
-    message:
-        "Typeset the report: report/build/report.pdf and report.html"
-    shell:
-        TYPESET
-
-
-# The report of one study alone, for a what-if that leaves the others as they are.
-for study in STUDIES:
+for report, shown in REPORTS.items():
 
     rule:
         name:
-            f"{study}_report_content"
+            f"{report}_content" if report == "report" else f"{report}_report_content"
         input:
-            sources=sources("smallsat.report.__main__", "smallsat.report.content"),
-            published=[project(f"data/published/{name}.csv") for name in ("values", "artefacts")],
-            extras=[
-                project(f"data/published/{name}/extras.yaml") for name in EXTRAS if name == study
+            sources=sources("smallsat.report.content"),
+            # The catalogue and the kinds of all values; what is shown beside them.
+            published=LEDGERS
+            + [
+                project(path.relative_to(ROOT))
+                for study in shown
+                for path in sorted((PUBLISHED / study).glob("*"))
+                if path.name in ("artefacts.csv", "extras.yaml")
             ],
-            documents=project("report/documents.yaml"),
-            chapters=CHAPTERS,
             default=project("config/default.yaml"),
+            schema=project("config/schema.yaml"),
+            verdicts="data/results/verdicts.csv" if report == "report" else [],
             findings=[
-                f"data/results/{study}/{name}.csv"
-                for name in ("verdicts", "errata", "claims", "not-converged")
+                path
+                for study in shown
+                for path in results(
+                    study,
+                    *["verdicts.csv"] * (report != "report"),
+                    "errata.csv",
+                    "claims.csv",
+                    "not-converged.csv",
+                )
             ],
-            timings=[path for path in STUDY_TIMINGS if f"/{study}/" in path],
-            tables=targets(study, "table") + extra_tables(study),
-            figures=report_figures(study),
+            timings=[path for path in TIMINGS if path.split("/")[2] in shown],
+            tables=[report_tables(study) for study in shown],
+            # The notebooks that draw them are listed in the report.
+            figures=[report_figures(study) for study in shown],
         output:
-            f"report/build/{study}.json",
+            f"report/build/{'content' if report == 'report' else report}.json",
         log:
-            f"logs/report/{study}-content.log",
+            f"logs/report/{report}-content.log",
         benchmark:
-            f"logs/report/{study}-content.benchmark.tsv"
+            f"logs/report/{report}-content.benchmark.tsv"
         params:
-            project=lambda _, input: Path(input.documents).parent.parent,
-            config=as_json(config),
+            project=lambda w, input: Path(input.schema).parents[1],
+            config=as_json(CONFIG),
             left_out=as_json(LEFT_OUT),
-            study=study,
+            studies="" if report == "report" else f"--studies {report}",
         message:
-            f"{study}: collect the content of its report"
+            f"Collect the content of the report: {', '.join(shown)}"
         shell:
-            "python -m smallsat.report content --project {params.project} --config {params.config:q}"
-            " --left-out {params.left_out:q} --studies {params.study} --output {output}"
-            " > {log} 2>&1"
+            "python -m smallsat content --project {params.project} --config {params.config:q}"
+            " --left-out {params.left_out:q} {params.studies} --output {output} > {log} 2>&1"
 
     rule:
         name:
-            f"{study}_report"
+            "report" if report == "report" else f"{report}_report"
         input:
-            sources=sources("smallsat.report.__main__", "smallsat.report.typesetting"),
+            sources=sources("smallsat.report.typesetting"),
             template=project("report/report.typ"),
             parts=TEMPLATES,
-            content=f"report/build/{study}.json",
-            figures=report_figures(study),
-            drawings=[str(Path(figure).with_suffix(".pdf")) for figure in report_figures(study)],
+            content=f"report/build/{'content' if report == 'report' else report}.json",
+            # The page shows the SVG, the PDF takes in the PDF.
+            figures=[report_figures(study) for study in shown],
+            drawings=[
+                str(Path(figure).with_suffix(".pdf"))
+                for study in shown
+                for figure in report_figures(study)
+            ],
         output:
-            pdf=f"report/build/{study}.pdf",
-            html=f"report/build/{study}.html",
+            pdf=f"report/build/{report}.pdf",
+            html=f"report/build/{report}.html",
         log:
-            f"logs/report/{study}.log",
+            f"logs/report/{report}.log",
         benchmark:
-            f"logs/report/{study}.benchmark.tsv"
+            f"logs/report/{report}.benchmark.tsv"
         params:
-            project=lambda _, input: Path(input.template).parent.parent,
+            project=lambda w, input: Path(input.template).parents[1],
         message:
-            f"{study}: typeset its report: report/build/{study}.pdf and {study}.html"
+            f"Typeset report/build/{report}.pdf and {report}.html"
         shell:
-            TYPESET
+            "python -m smallsat typeset {input.content} --project {params.project}"
+            " --output {output.pdf} {output.html} > {log} 2>&1"
 
 
 rule animations:

@@ -43,7 +43,9 @@ def read_table(path: Path, text: Sequence[str] = ()) -> pd.DataFrame:
     path = Path(path)
     try:
         if path.suffix == ".parquet":
-            return pd.read_parquet(path)
+            # Opened by Python, so that a record of opened files has it.
+            with path.open("rb") as file:
+                return pd.read_parquet(file)
         return pd.read_csv(
             path, keep_default_na=False, na_values=[""], dtype=dict.fromkeys(text, str)
         )

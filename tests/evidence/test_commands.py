@@ -12,10 +12,9 @@ import yaml
 from smallsat.errors import InputError
 from smallsat.evidence.claims import judge_claims, judged
 from smallsat.evidence.errata import Proof, prove_errata
-from smallsat.evidence.ledger import VALUE_COLUMNS, read_ledger
+from smallsat.evidence.ledger import VALUE_COLUMNS
 from smallsat.evidence.observation import Observation, observations_table
-from smallsat.evidence.summary import failures, verdict_counts
-from smallsat.evidence.verdicts import pending
+from smallsat.evidence.summary import failures, value_kinds, verdict_counts
 from smallsat.results import read_table, write_table
 
 HERE = "tests_of_commands"
@@ -60,10 +59,9 @@ def test_a_proof_that_does_not_exist_is_named(name, tmp_path):
 
 
 LEDGER = """\
-transfer/a,transfer,Table 1,time,,,3.25,s,result,
-transfer/b,transfer,Table 1,radius,,,1.5,,input,
-transfer/c,transfer,Table 1,elapsed,,,0.1,s,timing,
-mars/a,mars,Table 1,angle,,,35,deg,input,
+transfer/a,Table 1,time,,,3.25,s,result,
+transfer/b,Table 1,radius,,,1.5,,input,
+transfer/c,Table 1,elapsed,,,0.1,s,timing,
 """
 
 
@@ -72,7 +70,8 @@ def published(tmp_path):
     """A small ledger with one study."""
     folder = tmp_path / "published"
     (folder / "transfer").mkdir(parents=True)
-    (folder / "values.csv").write_text(",".join(VALUE_COLUMNS) + "\n" + LEDGER)
+    (folder / "transfer/values.csv").write_text(",".join(VALUE_COLUMNS) + "\n" + LEDGER)
+    (folder / "transfer/study.yaml").write_text("{order: 1, title: A paper, subject: Transfers}")
     entries = {
         "rules": [],
         "errata": [],
@@ -85,36 +84,35 @@ def published(tmp_path):
 
 
 def evidence(*arguments):
-    command = [sys.executable, "-m", "smallsat.evidence", *map(str, arguments)]
+    command = [sys.executable, "-m", "smallsat", *map(str, arguments)]
     return subprocess.run(command, capture_output=True, text=True, check=False)
 
 
 @pytest.mark.parametrize(("time", "status"), [(3.2461, 0), (3.3, 1)])
 def test_from_observations_to_a_summary(published, tmp_path, time, status):
-    """A study is judged, merged with what is pending, and a mismatch makes the summary fail."""
+    """A study is judged, merged, and a mismatch makes the summary fail."""
     results = tmp_path / "transfer"
     write_table(observations_table([Observation("transfer/a", time)]), results / "observations.csv")
     config = json.dumps({"transfer": {"radius": 1.5}})
-    study = ["study", "transfer", "--config", config, "--published", published]
+    study = ["judge", "--config", config, "--published", published / "transfer"]
     assert evidence(*study, "--results", results).returncode == 0
     merged = tmp_path / "verdicts.csv"
-    merge = ["merge", "--published", published, "--output", merged, results / "verdicts.csv"]
-    assert evidence(*merge).returncode == 0
+    assert evidence("merge", results / "verdicts.csv", "--output", merged).returncode == 0
 
     verdicts = read_table(merged).set_index("id")["verdict"]
-    assert list(verdicts.index) == ["transfer/a", "transfer/b", "transfer/c", "mars/a"]
+    assert list(verdicts.index) == ["transfer/a", "transfer/b", "transfer/c"]
     assert verdicts["transfer/a"] == ("mismatch" if status else "reproduced")
-    assert list(verdicts[1:]) == ["reproduced", "context", "pending"]
+    assert list(verdicts[1:]) == ["reproduced", "context"]
 
     summary = evidence("summary", merged, "--published", published)
     assert summary.returncode == status
-    assert f"3 of 4 published values have a verdict, {status} of them wrong." in summary.stdout
+    assert f"3 of 3 published values have a verdict, {status} of them wrong." in summary.stdout
     assert ("transfer/a: printed 3.25, computed 3.3" in summary.stdout) == bool(status)
     assert evidence("summary", merged, "--published", published, "--what-if").returncode == 0
 
 
 def test_missing_observations_are_one_line_and_status_2(published, tmp_path):
-    study = ["study", "transfer", "--config", "{}", "--published", published]
+    study = ["judge", "--config", "{}", "--published", published / "transfer"]
     run = evidence(*study, "--results", tmp_path / "none")
     assert run.returncode == 2
     assert run.stderr.startswith("smallsat: ")
@@ -123,13 +121,12 @@ def test_missing_observations_are_one_line_and_status_2(published, tmp_path):
 
 
 def test_counts_have_a_column_for_each_verdict_and_failures_are_mismatches(published):
-    rows = read_ledger(published / "values.csv")
-    kinds = pd.Series({row["id"]: row["kind"] for row in rows})
-    verdicts = pending(rows)
-    verdicts.loc[0, "verdict"] = "mismatch"
-    verdicts.loc[1, "verdict"] = "no such verdict"
+    kinds = value_kinds(published)
+    verdicts = pd.DataFrame(
+        {"id": kinds.index, "document": "transfer", "verdict": ["mismatch", "none such", "pending"]}
+    )
     counts = verdict_counts(verdicts, kinds)
     assert counts.loc[("transfer", "result"), "mismatch"] == 1
-    assert counts.loc[("mars", "input"), "pending"] == 1
+    assert counts.loc[("transfer", "timing"), "pending"] == 1
     assert list(counts.columns)[-2:] == ["mismatch", "pending"]
     assert list(failures(verdicts)["id"]) == ["transfer/a", "transfer/b"]

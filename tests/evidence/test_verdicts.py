@@ -8,7 +8,7 @@ import pytest
 from smallsat.errors import InputError
 from smallsat.evidence.errata import ERRATA_COLUMNS
 from smallsat.evidence.observation import Observation, observations_table
-from smallsat.evidence.verdicts import PENDING, VERDICT_COLUMNS, VERDICTS, judge, pending
+from smallsat.evidence.verdicts import PENDING, VERDICT_COLUMNS, VERDICTS, judge
 
 ID = "transfer/table-1/time"
 CONFIG = {"transfer": {"radius": 1.5}}
@@ -234,13 +234,6 @@ def test_a_value_with_two_rules_or_two_errata_is_an_error():
 
 def test_an_erratum_of_a_formula_needs_no_ids():
     assert list(judge_with(errata=[{"key": "sign-of-eq"}])["verdict"]) == ["mismatch"]
-
-
-def test_pending_rows_have_no_verdict_of_the_seven():
-    (outcome,) = pending([row()]).itertuples()
-    assert outcome.verdict == PENDING
-    assert PENDING not in VERDICTS
-    assert isnan(outcome.computed)
 
 
 def test_a_solve_that_failed_is_no_result():

@@ -10,7 +10,7 @@ from smallsat.errors import InputError
 from smallsat.evidence.ledger import read_ledger
 from smallsat.studies.mars.evidence.observations import observations
 
-LEDGER = Path(__file__).parents[2] / "data/published/values.csv"
+LEDGER = Path(__file__).parents[2] / "data/published/mars/values.csv"
 
 
 def test_every_published_result_is_observed_once(section, given, runs):

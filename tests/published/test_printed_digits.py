@@ -6,13 +6,16 @@ decimal numbers, so that half a unit is exact; the computed value is the text in
 
 from decimal import ROUND_DOWN, Decimal
 from fnmatch import fnmatchcase
+from pathlib import Path
 
 import pytest
 
 import smallsat.evidence.verdicts as judging
+from smallsat.catalogue import read_catalogue
 from smallsat.config import read_yaml
 from smallsat.evidence.ledger import read_ledger
 from smallsat.evidence.printed import Printed
+from smallsat.evidence.summary import value_kinds
 from smallsat.results import read_table, write_table
 
 # Literals that are no decimal numbers, worked out by hand.
@@ -25,7 +28,8 @@ EXACT = {
 }
 # A results file has twelve significant digits.
 DIGITS = 12
-STUDIES = ("transfer", "mars", "slew", "racing", "rendezvous")
+PUBLISHED = Path(__file__).parents[2] / "data/published"
+STUDIES = [study.name for study in read_catalogue(PUBLISHED)]
 
 
 def unit(number):
@@ -107,8 +111,8 @@ def text_table(path):
 
 
 @pytest.fixture(scope="module")
-def kinds(root):
-    return {row["id"]: row["kind"] for row in read_ledger(root / "data/published/values.csv")}
+def kinds():
+    return value_kinds(PUBLISHED).to_dict()
 
 
 @pytest.mark.parametrize("study", STUDIES)
@@ -160,10 +164,10 @@ def test_a_broken_judge_is_found(root, tested_run, kinds, config, tmp_path, monk
         name: read_yaml(root / f"data/published/{study}/{name}.yaml")
         for name in ("rules", "bindings", "errata")
     }
-    rows = read_ledger(root / "data/published/values.csv")
+    rows = read_ledger(root / f"data/published/{study}/values.csv")
     monkeypatch.setattr(judging, "parse_printed", broken())
     table = judging.judge(
-        [row for row in rows if row["document"] == study],
+        rows,
         read_table(results / "observations.csv"),
         entries["rules"],
         entries["bindings"],

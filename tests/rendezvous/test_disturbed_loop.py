@@ -8,8 +8,8 @@ import pytest
 
 from smallsat.statistics.random_streams import stream
 from smallsat.studies.rendezvous.monte_carlo.cases import base, cases, in_phase
+from smallsat.studies.rendezvous.monte_carlo.initial_states import states_table
 from smallsat.studies.rendezvous.monte_carlo.runs import fly_cases
-from smallsat.studies.rendezvous.monte_carlo.studies import states_table
 from smallsat.studies.rendezvous.simulation.closed_loop import manoeuvres
 from smallsat.studies.rendezvous.simulation.disturbances import disturbances
 from smallsat.studies.rendezvous.simulation.disturbed_loop import disturbed_manoeuvres

@@ -3,12 +3,11 @@
 import pandas as pd
 import pytest
 import synthetic
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from smallsat.errors import InputError
 from smallsat.results import write_table
-from smallsat.studies.rendezvous.monte_carlo.shards import merge, part
+from smallsat.step import Shard
+from smallsat.studies.rendezvous.monte_carlo.shards import merge
 
 COUNT = 17
 
@@ -21,27 +20,19 @@ def shard_files(folder, shards):
     ]
     paths = []
     for shard in range(1, shards + 1):
-        own = part(COUNT, shard, shards)
+        own = Shard(shard, shards).units(COUNT)
         path = folder / f"{shard}-of-{shards}.parquet"
         write_table(pd.concat([case.iloc[own] for case in cases], ignore_index=True), path)
         paths.append(path)
     return paths
 
 
-@given(count=st.integers(0, 60), shards=st.integers(1, 12))
-@settings(max_examples=50, deadline=None)
-def test_parts_are_a_partition(count, shards):
-    """Every unit in one shard, and sizes that differ by one at most."""
-    parts = [part(count, shard, shards) for shard in range(1, shards + 1)]
-    assert sorted(i for one in parts for i in one) == list(range(count))
-    assert max(map(len, parts)) - min(map(len, parts)) <= 1
-
-
 @pytest.mark.parametrize("shards", [2, 5, 17])
 def test_any_number_of_shards_gives_the_same_bytes(tmp_path, shards):
     """One shard or seventeen: the merged file is the same, case by case and sample by sample."""
-    merge(shard_files(tmp_path, 1), tmp_path / "one.parquet")
-    merged = merge(shard_files(tmp_path, shards), tmp_path / "many.parquet")
+    write_table(merge(shard_files(tmp_path, 1)), tmp_path / "one.parquet")
+    merged = merge(shard_files(tmp_path, shards))
+    write_table(merged, tmp_path / "many.parquet")
     assert (tmp_path / "one.parquet").read_bytes() == (tmp_path / "many.parquet").read_bytes()
     assert list(dict.fromkeys(merged["case"])) == ["b", "a", "c"]
     assert merged["sample"].tolist() == 3 * list(range(COUNT))
@@ -52,9 +43,8 @@ def test_a_damaged_shard_is_named_and_removed(tmp_path):
     first, second = shard_files(tmp_path, 2)
     second.write_bytes(second.read_bytes()[:300])
     with pytest.raises(InputError, match=r"2-of-2\.parquet: damaged results file"):
-        merge([first, second], tmp_path / "merged.parquet")
+        merge([first, second])
     assert first.exists() and not second.exists()
-    assert not (tmp_path / "merged.parquet").exists()
 
 
 def test_a_missing_column_and_a_wrong_type_are_named(tmp_path):
@@ -62,11 +52,11 @@ def test_a_missing_column_and_a_wrong_type_are_named(tmp_path):
     table = synthetic.manoeuvres("a", 3)
     write_table(table.drop(columns="docking_steps"), tmp_path / "short.parquet")
     with pytest.raises(InputError, match=r"column 'docking_steps' is missing; needed: int32"):
-        merge([tmp_path / "short.parquet"], tmp_path / "merged.parquet")
+        merge([tmp_path / "short.parquet"])
     table["sample"] = table["sample"].astype("int64")
     write_table(table, tmp_path / "wide.parquet")
     with pytest.raises(InputError, match=r"column 'sample' is of type int64; needed: int32"):
-        merge([tmp_path / "wide.parquet"], tmp_path / "merged.parquet")
+        merge([tmp_path / "wide.parquet"])
 
 
 def test_the_same_manoeuvre_twice_is_refused(tmp_path):
@@ -74,10 +64,4 @@ def test_the_same_manoeuvre_twice_is_refused(tmp_path):
     whole, *_ = shard_files(tmp_path, 1)
     half, *_ = shard_files(tmp_path, 2)
     with pytest.raises(InputError, match=r"case b, sample 0, run 0 is there twice"):
-        merge([whole, half], tmp_path / "merged.parquet")
-
-
-def test_shard_out_of_range():
-    """Shard 5 of 4 does not exist."""
-    with pytest.raises(InputError, match=r"shard 5: not allowed; from 1 to 4"):
-        part(10, 5, 4)
+        merge([whole, half])

@@ -17,7 +17,7 @@ from smallsat.evidence.claims import CLAIM_COLUMNS
 from smallsat.evidence.errata import ERRATA_COLUMNS
 from smallsat.evidence.ledger import ARTEFACT_COLUMNS, VALUE_COLUMNS, read_ledger
 from smallsat.evidence.not_converged import NotConverged, not_converged_table
-from smallsat.evidence.verdicts import VERDICT_COLUMNS, pending
+from smallsat.evidence.verdicts import VERDICT_COLUMNS
 from smallsat.report.content import collect
 from smallsat.report.typesetting import compile_report
 from smallsat.results import write_json, write_table
@@ -25,20 +25,15 @@ from smallsat.results import write_json, write_table
 PROJECT = Path(__file__).parents[2]
 CONFIG = {"run": "", "transfer": {"radius": 1.5, "degrees": [2, 3]}}
 VALUES = """\
-transfer/a,transfer,Table 1,terminal time,Direct N=2,,3.24694,s,result,
-transfer/b,transfer,Table 1,terminal mass,Direct N=2,,-0.7555,,result,
-transfer/c,transfer,Section 3,elapsed time,Direct N=2,,0.156,s,timing,
-transfer/d,transfer,Listing 4,radius,,,1.5,,input,
-mars/a,mars,Table 1,angle,,,35,deg,result,
-slew/a,slew,Table 1,angle,,,35,deg,result,
-racing/a,racing,Table 1,angle,,,35,deg,result,
-rendezvous/a,rendezvous,Table 1,angle,,,35,deg,result,
+transfer/a,Table 1,terminal time,Direct N=2,,3.24694,s,result,
+transfer/b,Table 1,terminal mass,Direct N=2,,-0.7555,,result,
+transfer/c,Section 3,elapsed time,Direct N=2,,0.156,s,timing,
+transfer/d,Listing 4,radius,,,1.5,,input,
 """
 ARTEFACTS = """\
-transfer,Table 1,table,Performance,computed,data/results/transfer/tables/table-1.csv
-transfer,Figure 1,figure,Angle \\beta,computed,figures/transfer/fig-01.svg
-transfer,Animation 1,animation,A film,computed,figures/transfer/animation-1.mp4
-mars,Figure 1,figure,Orbit,computed,
+Table 1,table,Performance,computed,data/results/transfer/tables/table-1.csv
+Figure 1,figure,Angle \\beta,computed,figures/transfer/fig-01.svg
+Animation 1,animation,A film,computed,figures/transfer/animation-1.mp4
 """
 OUTCOMES = {
     "transfer/a": (3.2469412, 1.2e-6, "reproduced", "equal to the printed digits"),
@@ -49,13 +44,12 @@ OUTCOMES = {
 
 
 def write_run(run: Path, published: Path) -> None:
-    """Results of one built study; the others are pending."""
+    """Results of a study."""
     results = run / "data/results"
-    verdicts = pending(read_ledger(published / "values.csv")).set_index("id")
-    for identifier, outcome in OUTCOMES.items():
-        columns = ["computed", "difference", "verdict", "reason"]
-        verdicts.loc[identifier, columns] = list(outcome)
-    verdicts = verdicts.reset_index()[list(VERDICT_COLUMNS)]
+    rows = read_ledger(published / "transfer/values.csv")
+    columns = ("computed", "difference", "verdict", "reason")
+    judged = [row | dict(zip(columns, OUTCOMES[row["id"]], strict=True)) for row in rows]
+    verdicts = pd.DataFrame(judged, columns=list(VERDICT_COLUMNS))
     write_table(verdicts, results / "verdicts.csv")
     erratum = dict.fromkeys(ERRATA_COLUMNS, "two mass rows are copies") | {"holds": True}
     claim = dict.fromkeys(CLAIM_COLUMNS, "the time falls") | {"outcome": "fails"}
@@ -95,8 +89,10 @@ def project(tmp_path_factory):
     )
     published = folder / "data/published"
     (published / "transfer").mkdir(parents=True)
-    (published / "values.csv").write_text(",".join(VALUE_COLUMNS) + "\n" + VALUES)
-    (published / "artefacts.csv").write_text(",".join(ARTEFACT_COLUMNS) + "\n" + ARTEFACTS)
+    own = published / "transfer"
+    (own / "study.yaml").write_text("{order: 1, title: A paper, subject: Transfers}")
+    (own / "values.csv").write_text(",".join(VALUE_COLUMNS) + "\n" + VALUES)
+    (own / "artefacts.csv").write_text(",".join(ARTEFACT_COLUMNS) + "\n" + ARTEFACTS)
     extra = {
         "title": "Other solvers",
         "text": "The same problem, solved otherwise.",
@@ -166,7 +162,6 @@ def test_the_page_has_every_part_of_a_study(reproduction):
     assert "Angle β" in page.text
     assert "ours 3.246812" in page.text
     assert "transfer.radius 1.5 reproduced Listing 4" in page.text
-    assert page.text.count("This study is not built yet") == 4
     assert "transfer-figure-1" in page.ids
 
 

@@ -68,14 +68,14 @@ def _damaged(text: str, damage: str) -> str:
 @pytest.mark.parametrize(
     ("damage", "words"),
     [
-        ("duplicate id", ("duplicate id", "line 1716")),
+        ("duplicate id", ("duplicate id", "line 480")),
         ("missing column", ("column 'printed' is missing",)),
         ("unparsable number", ("'3.24x94'", "no number")),
     ],
 )
 def test_damaged_ledger(project, damage, words):
     """The ledger is checked before anything runs; nothing is lost by it."""
-    path = project.folder / "data/published/values.csv"
+    path = project.folder / "data/published/transfer/values.csv"
     intact = path.read_text()
     path.write_text(_damaged(intact, damage))
     try:

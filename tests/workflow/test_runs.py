@@ -59,9 +59,13 @@ def test_a_configuration_equal_to_the_default_reruns_nothing(built, setting):
 @pytest.mark.parametrize(
     ("module", "reruns", "keeps"),
     [
-        ("transfer/indirect.py", "transfer_indirect", "mars_simulation"),
-        ("transfer/case_plot.py", "transfer_figures_indirect_n0_k1", "transfer_indirect"),
-        ("dynamics/circular_orbits.py", "mars_simulation", "transfer_indirect"),
+        ("studies/transfer/methods/indirect.py", "transfer_indirect", "mars_simulation"),
+        (
+            "studies/transfer/figures/cases.py",
+            "transfer_figures_indirect_n0_k1",
+            "transfer_indirect",
+        ),
+        ("dynamics/orbits/circular_orbits.py", "mars_simulation", "transfer_indirect"),
     ],
 )
 def test_a_changed_source_reruns_what_imports_it(built, module, reruns, keeps):

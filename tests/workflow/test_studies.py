@@ -65,7 +65,7 @@ def workers(project, run):
             folder = (path / "cwd").readlink()
         except OSError:
             continue
-        if b"shard" in words and folder == project.folder / "runs" / run:
+        if b"--shard" in words and folder == project.folder / "runs" / run:
             found.append(int(path.name))
     return found
 
@@ -79,7 +79,7 @@ def test_any_number_of_shards(project):
 
 def test_progress_is_in_each_shards_log(project):
     """Which case, and how many of its manoeuvres are flown."""
-    log = project.folder / "runs/undisturbed/logs/rendezvous/rendezvous-sweep-2.log"
+    log = project.folder / "runs/undisturbed/logs/rendezvous/rendezvous-sweep-2-of-3.log"
     assert "case 4 of 4, N 30, Ts 60 s: 2 of 2 manoeuvres" in log.read_text()
 
 

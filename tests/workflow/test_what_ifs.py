@@ -5,13 +5,15 @@ from pathlib import Path
 
 import pytest
 
+from smallsat.catalogue import read_catalogue
+
 SCRIPT = Path(__file__).parents[1] / "what_ifs/run.py"
 specification = importlib.util.spec_from_file_location("what_ifs", SCRIPT)
 what_ifs = importlib.util.module_from_spec(specification)
 specification.loader.exec_module(what_ifs)
 
 ALL = what_ifs.read_what_ifs()
-STUDIES = ("transfer", "mars", "slew", "racing", "rendezvous")
+STUDIES = [study.name for study in read_catalogue(Path(__file__).parents[2] / "data/published")]
 
 
 @pytest.mark.parametrize("study", STUDIES)

@@ -9,7 +9,6 @@ from smallsat.evidence.printed import LOST, looks_numeric, parse_printed
 
 VALUE_COLUMNS = (
     "id",
-    "document",
     "locator",
     "quantity",
     "case",
@@ -20,24 +19,24 @@ VALUE_COLUMNS = (
     "note",
 )
 VALUE_KINDS = ("input", "result", "timing")
-ARTEFACT_COLUMNS = ("document", "id", "kind", "caption", "class", "target")
+ARTEFACT_COLUMNS = ("id", "kind", "caption", "class", "target")
 ARTEFACT_KINDS = ("table", "figure", "animation")
 Row = dict[str, str]
-DOCUMENTS = ("transfer", "mars", "slew", "racing", "rendezvous")
 
 
 def read_ledger(path: Path) -> list[Row]:
-    """Read ``data/published/values.csv``: one row a published number, as text.
+    """Read a study's ``values.csv``: one row a published number, as text.
+
+    The column ``document`` is the name of the study, which is that of the folder.
 
     Raises
     ------
     InputError
-        On a missing column, a duplicate id, an unknown document or kind, or a number that does not
-        parse, naming the line.
+        On a missing column, a duplicate id, an unknown kind, or a number that does not parse,
+        naming the line.
     """
     table = _read(path, VALUE_COLUMNS)
     for line, row in _numbered(table):
-        _require(path, line, "document", row["document"], DOCUMENTS)
         _require(path, line, "kind", row["kind"], VALUE_KINDS)
         printed = row["printed"]
         if not printed:
@@ -53,15 +52,14 @@ def read_ledger(path: Path) -> list[Row]:
 
 
 def read_artefacts(path: Path) -> list[Row]:
-    """Read ``data/published/artefacts.csv``: one row a table, figure or animation.
+    """Read a study's ``artefacts.csv``: one row a table, figure or animation.
 
     An empty target means that the artefact's part of the study is not built yet.
     """
     table = _read(path, ARTEFACT_COLUMNS)
     for line, row in _numbered(table):
-        _require(path, line, "document", row["document"], DOCUMENTS)
         _require(path, line, "kind", row["kind"], ARTEFACT_KINDS)
-    _unique(path, table, ["document", "id"])
+    _unique(path, table, ["id"])
     return table
 
 
@@ -85,7 +83,8 @@ def _read(path: Path, columns: tuple[str, ...]) -> list[Row]:
         raise InputError(f"{path}: no such file; restore it from the repository") from None
     except (csv.Error, UnicodeDecodeError) as error:
         raise InputError(f"{path}: not a CSV file ({error}); restore it") from None
-    return [{name: row[name] for name in columns} for row in rows]
+    document = {"document": Path(path).resolve().parent.name}
+    return [document | {name: row[name] for name in columns} for row in rows]
 
 
 def _numbered(table: list[Row]) -> Iterator[tuple[int, Row]]:

@@ -43,6 +43,13 @@ def not_converged_table(cases: Iterable[NotConverged]) -> pd.DataFrame:
     return pd.DataFrame([asdict(case) for case in cases], columns=list(NOT_CONVERGED_COLUMNS))
 
 
+def joined(results: Path, steps: Iterable[str]) -> pd.DataFrame:
+    """The cases without a solution of several steps of a study, from ``STEP-not-converged.csv``."""
+    tables = [_read(results / f"{step}-not-converged.csv") for step in steps]
+    found = [table for table in tables if len(table)]
+    return pd.concat(found, ignore_index=True) if found else not_converged_table([])
+
+
 def read_not_converged(results: Path) -> pd.DataFrame:
     """Cases without a solution of all studies of a run: study, and the table's own columns.
 
@@ -52,12 +59,14 @@ def read_not_converged(results: Path) -> pd.DataFrame:
         Folder ``data/results`` of the run.
     """
     tables = [
-        # What was not tried is an empty text, and no missing number.
-        read_table(path, ("case", "status", "tried"))
-        .fillna({"tried": ""})
-        .assign(study=path.parent.name)
+        _read(path).assign(study=path.parent.name)
         for path in sorted(results.glob("*/not-converged.csv"))
     ]
     columns = ["study", *NOT_CONVERGED_COLUMNS]
     found = [table for table in tables if len(table)]
     return pd.concat(found, ignore_index=True)[columns] if found else pd.DataFrame(columns=columns)
+
+
+def _read(path: Path) -> pd.DataFrame:
+    # What was not tried is an empty text, and no missing number.
+    return read_table(path, ("case", "status", "tried")).fillna({"tried": ""})

@@ -1,10 +1,15 @@
-"""Counting verdicts, and deciding whether a build stands."""
+"""Count the verdicts, and decide whether a build stands: exit with 1 if one is wrong."""
 
+import argparse
 from pathlib import Path
 
 import pandas as pd
 
-from smallsat.evidence.verdicts import PENDING, VERDICTS
+from smallsat.catalogue import read_catalogue
+from smallsat.evidence.ledger import read_ledger
+from smallsat.evidence.not_converged import read_not_converged
+from smallsat.evidence.verdicts import PENDING, TEXT_COLUMNS, VERDICTS
+from smallsat.results import read_table
 
 
 def verdict_counts(verdicts: pd.DataFrame, kinds: pd.Series) -> pd.DataFrame:
@@ -53,3 +58,32 @@ def summary_text(
     if report.exists():
         lines.append(f"report: {report} and {report.with_suffix('.html')}")
     return "\n".join(lines)
+
+
+def value_kinds(published: Path) -> pd.Series:
+    """Kind (input, result, timing) of every printed value, by id."""
+    return pd.Series(
+        {
+            row["id"]: row["kind"]
+            for study in read_catalogue(published)
+            for row in read_ledger(published / study.name / "values.csv")
+        }
+    )
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of ``summary``."""
+    parser.add_argument("verdicts", type=Path)
+    parser.add_argument("--published", type=Path, default=Path("data/published"))
+    parser.add_argument("--what-if", action="store_true", help="report differences, never fail")
+
+
+def main(arguments: argparse.Namespace) -> None:
+    """Print the counts, what is wrong and what did not converge."""
+    verdicts = read_table(arguments.verdicts, TEXT_COLUMNS)
+    results = arguments.verdicts.parent
+    report = results.parents[1] / "report/build/report.pdf"
+    kinds = value_kinds(arguments.published)
+    print(summary_text(verdicts, kinds, read_not_converged(results), report))
+    if len(failures(verdicts)) and not arguments.what_if:
+        raise SystemExit(1)

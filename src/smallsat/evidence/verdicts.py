@@ -116,24 +116,6 @@ def judge(
     return pd.DataFrame(judged, columns=list(VERDICT_COLUMNS))
 
 
-def pending(rows: Sequence[Row]) -> pd.DataFrame:
-    """The rows of a document whose study is not built yet.
-
-    Parts of a built study that are not are named in its ``rules.yaml``, by rules with ``pending``.
-    """
-    reason = "the study is not built yet"
-    blank = {"computed": nan, "difference": nan, "tolerance": nan}
-    return pd.DataFrame(
-        [
-            {name: row.get(name, "") for name in VERDICT_COLUMNS}
-            | blank
-            | {"verdict": PENDING, "reason": reason}
-            for row in rows
-        ],
-        columns=list(VERDICT_COLUMNS),
-    )
-
-
 def _records(table: pd.DataFrame) -> list[dict[str, Any]]:
     return [{str(name): value for name, value in row.items()} for row in table.to_dict("records")]
 

@@ -1,5 +1,6 @@
-"""Everything that the report says, collected from the results of a run and put into words."""
+"""Collect everything that the report says from the results of a run."""
 
+import argparse
 import hashlib
 import json
 import re
@@ -9,11 +10,12 @@ from typing import Any
 
 import pandas as pd
 
-from smallsat.config import Config
+from smallsat.catalogue import read_catalogue
+from smallsat.config import Config, default_config
 from smallsat.errors import InputError
-from smallsat.evidence.ledger import VALUE_KINDS, read_artefacts, read_ledger
+from smallsat.evidence.ledger import VALUE_KINDS, read_artefacts
 from smallsat.evidence.not_converged import read_not_converged
-from smallsat.evidence.summary import failures, verdict_counts
+from smallsat.evidence.summary import failures, value_kinds, verdict_counts
 from smallsat.evidence.verdicts import PENDING
 from smallsat.report.inputs import input_groups
 from smallsat.report.number import significant_text
@@ -25,7 +27,7 @@ from smallsat.report.values import (
     value_table,
     value_texts,
 )
-from smallsat.results import read_table
+from smallsat.results import read_table, write_json
 from smallsat.strict_yaml import read_yaml
 
 # Digits of numbers in tables that go beyond a document.
@@ -58,41 +60,41 @@ def collect(
         The studies that the report is about, from their own verdicts; none for the whole report.
     """
     published, results = project / "data/published", run / "data/results"
-    ledger = read_ledger(published / "values.csv")
-    kinds = pd.Series({row["id"]: row["kind"] for row in ledger})
+    kinds = value_kinds(published)
     paths = [results / study / "verdicts.csv" for study in studies] or [results / "verdicts.csv"]
     verdicts = pd.concat([read_findings(path) for path in paths], ignore_index=True)
     verdicts["kind"] = verdicts["id"].map(kinds)
     verdicts["seconds"] = verdicts["id"].map(_seconds(results))
-    artefacts = read_artefacts(published / "artefacts.csv")
     counts = verdict_counts(verdicts, kinds)
-
-    shown = [row for row in artefacts if row["target"] not in left_out]
-
     unsolved = read_not_converged(results)
     documents = []
-    for name, described in read_yaml(project / "report/documents.yaml").items():
+    for study in read_catalogue(published):
+        name = study.name
         if studies and name not in studies:
             continue
         own = verdicts[verdicts["document"] == name]
+        artefacts = read_artefacts(published / name / "artefacts.csv")
+        shown = [row for row in artefacts if row["target"] not in left_out]
         document = {
             "key": name,
-            **described,
-            "built": bool((own["verdict"] != PENDING).any()),
-            "counts": _counts(counts.loc[name]),
+            **{
+                key: value
+                for key in ("title", "author", "year", "subject")
+                if (value := getattr(study, key))
+            },
+            "counts": _counts(counts.loc[[name]].droplevel(0)),
             "artefacts": {
-                kind: sum(row["document"] == name and row["kind"] == kind for row in artefacts)
+                kind: sum(row["kind"] == kind for row in artefacts)
                 for kind in ("table", "figure", "animation")
             },
         }
-        if document["built"]:
-            chapter = project / f"report/chapters/{name}.typ"
-            document |= _study(own, shown, results / name, published / name)
-            document["not_converged"] = [
-                {**row, "residual": _cell(row["residual"])}
-                for row in records(unsolved[unsolved["study"] == name])
-            ]
-            document["chapter"] = f"/report/chapters/{name}.typ" if chapter.exists() else None
+        chapter = project / f"report/chapters/{name}.typ"
+        document |= _study(own, shown, results / name, published / name)
+        document["not_converged"] = [
+            {**row, "residual": _cell(row["residual"])}
+            for row in records(unsolved[unsolved["study"] == name])
+        ]
+        document["chapter"] = f"/report/chapters/{name}.typ" if chapter.exists() else None
         documents.append(document)
     return {
         "run": _run(project, run, config, default),
@@ -107,7 +109,7 @@ def _study(
     verdicts: pd.DataFrame, artefacts: list[dict[str, str]], results: Path, published: Path
 ) -> Content:
     document, run = published.name, results.parents[2]
-    own = [row for row in artefacts if row["document"] == document and row["target"]]
+    own = [row for row in artefacts if row["target"]]
     tables = [row for row in own if row["kind"] == "table"]
     in_table = pd.Series(False, index=verdicts.index)
     table_contents = []
@@ -233,3 +235,26 @@ def _leaves(value: Any, key: str = "") -> Iterator[tuple[str, str]]:
             yield from _leaves(value[name], f"{key}.{name}" if key else name)
     else:
         yield key, json.dumps(value)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of ``content``."""
+    parser.add_argument("--config", required=True, type=json.loads, help="whole configuration")
+    parser.add_argument("--project", required=True, type=Path, help="folder of the project")
+    parser.add_argument("--run", default=Path(), type=Path, help="folder of the run")
+    parser.add_argument("--left-out", default=[], type=json.loads, help="targets not made, JSON")
+    parser.add_argument("--studies", nargs="*", default=[], help="only these; else all")
+    parser.add_argument("--output", required=True, type=Path)
+
+
+def main(arguments: argparse.Namespace) -> None:
+    """Write the content as JSON."""
+    collected = collect(
+        arguments.project,
+        arguments.run,
+        arguments.config,
+        default_config(arguments.project),
+        arguments.left_out,
+        arguments.studies,
+    )
+    write_json(collected, arguments.output)

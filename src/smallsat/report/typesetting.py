@@ -1,5 +1,6 @@
-"""Typesetting: one Typst source, as a PDF or as a web page."""
+"""Typeset the report: one Typst source, as a PDF or as a web page."""
 
+import argparse
 import re
 from pathlib import Path
 from typing import Literal
@@ -56,3 +57,16 @@ def _place(error: typst.TypstError) -> str:
     """File, line and column of an error, after any warnings."""
     place = re.search(r"^error:.*?┌─ (\S+)", error.diagnostic, re.DOTALL | re.MULTILINE)
     return f" ({place[1]})" if place else ""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of ``typeset``."""
+    parser.add_argument("content", type=Path)
+    parser.add_argument("--project", required=True, type=Path, help="folder of the project")
+    parser.add_argument("--output", required=True, type=Path, nargs="+", help=".pdf or .html")
+
+
+def main(arguments: argparse.Namespace) -> None:
+    """Typeset every output that is asked for."""
+    for output in arguments.output:
+        compile_report(arguments.content, arguments.project, output)

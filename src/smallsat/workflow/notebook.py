@@ -1,21 +1,22 @@
-"""Run one parameterised notebook with papermill. ``python -m smallsat.workflow.notebook -h``."""
+"""Run one parameterised notebook with papermill."""
 
 import argparse
 import json
 import warnings
 from pathlib import Path
 
-from smallsat.errors import InputError, report_input_errors
+from smallsat.errors import InputError
 
 
-def main() -> None:
-    """Execute a notebook; an `InputError` raised inside it is reported as one line."""
-    parser = argparse.ArgumentParser(description=__doc__)
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of ``notebook``."""
     parser.add_argument("notebook", type=Path)
     parser.add_argument("executed", type=Path, help="where the executed notebook goes")
     parser.add_argument("--parameters", type=json.loads, default={}, help="JSON object")
-    arguments = parser.parse_args()
 
+
+def main(arguments: argparse.Namespace) -> None:
+    """Execute a notebook; an `InputError` raised inside it is reported as one line."""
     # The kernel's transport warning is harmless and would be in every log.
     warnings.filterwarnings("ignore", module="zmq")
     import papermill
@@ -32,7 +33,3 @@ def main() -> None:
         if error.ename == "InputError":
             raise InputError(error.evalue) from None
         raise
-
-
-if __name__ == "__main__":
-    report_input_errors(main)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from smallsat.evidence.ledger import read_ledger
 
-LEDGER = Path(__file__).parents[5] / "data/published/values.csv"
+LEDGER = Path(__file__).parents[5] / "data/published/mars/values.csv"
 
 
 @cache

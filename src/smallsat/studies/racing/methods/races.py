@@ -53,7 +53,7 @@ KEY = ["scenario", "cubesat", "solution"]
 
 @dataclass
 class Tables:
-    """Rows of the tables that a kind of solution fills; `frames` makes tables of them."""
+    """Rows of the tables that a kind of solution fills; `files` makes tables of them."""
 
     races: list[dict[str, Any]] = field(default_factory=list)
     rings: list[dict[str, Any]] = field(default_factory=list)
@@ -62,14 +62,15 @@ class Tables:
     seconds: list[dict[str, Any]] = field(default_factory=list)
     not_converged: list[NotConverged] = field(default_factory=list)
 
-    def frames(self) -> dict[str, pd.DataFrame]:
-        """The tables by name, the seconds apart."""
+    def files(self, stem: str) -> dict[str, pd.DataFrame]:
+        """The tables by file name, the seconds apart."""
         return {
-            "races": pd.DataFrame(self.races),
+            f"{stem}-races.csv": pd.DataFrame(self.races),
             # Where no race was solved there are no rings, but the table has its columns.
-            "rings": pd.DataFrame(self.rings, columns=[*KEY, *RING]),
-            "segments": pd.DataFrame(self.segments),
-            "seconds": pd.DataFrame(self.seconds),
+            f"{stem}-rings.csv": pd.DataFrame(self.rings, columns=[*KEY, *RING]),
+            f"{stem}-segments.csv": pd.DataFrame(self.segments),
+            f"{stem}-seconds.csv": pd.DataFrame(self.seconds),
+            f"{stem}-trajectories.parquet": self.trajectory(),
         }
 
     def trajectory(self) -> pd.DataFrame:

@@ -1,6 +1,7 @@
 """Optimal races on random courses: where the published race lies among them."""
 
 import time
+from collections.abc import Iterable
 
 import numpy as np
 import pandas as pd
@@ -18,18 +19,18 @@ RULES = {"generator": True, "text": False}
 
 
 def fly_random(
-    given: Parameters, section: Config, shard: int, shards: int, rings: int
+    given: Parameters, section: Config, courses: Iterable[int], rings: int
 ) -> tuple[pd.DataFrame, pd.DataFrame, list[NotConverged]]:
-    """Every shards-th course from a shard's first one: results, seconds, courses not solved.
+    """Some of the random courses, by number: results, seconds, courses not solved.
 
-    Each course has a random stream of its own, so that results do not depend on the shards. It is
-    drawn twice: with the generator's halved ranges of angles, and with the text's whole ones.
+    Each course has a random stream of its own, so that it depends on its number alone. It is drawn
+    twice: with the generator's halved ranges of angles, and with the text's whole ones.
     """
     numbers = section["random_courses"]
     streams = np.random.SeedSequence(numbers["seed"]).spawn(numbers["courses"])
     solver = program(rings, "state", section["optimum"]["intervals"])
     rows, seconds, missing = [], [], []
-    for number in range(shard, numbers["courses"], shards):
+    for number in courses:
         for rule, halved in RULES.items():
             draws = np.random.default_rng(streams[number])
             course = generate(draws, given.ranges, rings, halved)

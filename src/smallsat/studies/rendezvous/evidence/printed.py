@@ -9,7 +9,7 @@ from smallsat.evidence.ledger import read_ledger
 from smallsat.evidence.printed import parse_printed
 from smallsat.studies.rendezvous.guidance.law import PHASES
 
-PUBLISHED = Path(__file__).parents[5] / "data/published"
+PUBLISHED = Path(__file__).parents[5] / "data/published/rendezvous"
 LEDGER, ARTEFACTS = PUBLISHED / "values.csv", PUBLISHED / "artefacts.csv"
 # Case of ours: where the document prints it, and what its rows are called there.
 CASE_TABLES = {

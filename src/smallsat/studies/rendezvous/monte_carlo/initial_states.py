@@ -3,8 +3,12 @@
 from typing import NamedTuple
 
 import numpy as np
+import pandas as pd
 
+from smallsat.config import Config
 from smallsat.statistics.random_streams import stream
+from smallsat.studies.rendezvous.monte_carlo.cases import base
+from smallsat.studies.rendezvous.monte_carlo.tables import STATE
 
 # How the direction is drawn, which the thesis does not say. What it says of the positions is in
 # terms of the orbit's plane alone: quadrants, the half-plane of the docking port, and a plot of x
@@ -82,3 +86,20 @@ def inside(states: np.ndarray, radius: float) -> np.ndarray:
     With the keep-out radius these are starts where the keep-out planes cannot hold at first.
     """
     return np.linalg.norm(states[:, :3], axis=1) < radius
+
+
+def distribution(section: Config) -> Distribution:
+    """The distribution that the configuration's ``studies`` describe."""
+    settings = section["studies"]
+    nearest, farthest = (1e3 * distance for distance in settings["distance_km"])
+    return Distribution(nearest, farthest, settings["velocity_deviation_m_s"], IN_PLANE)
+
+
+def states_table(section: Config, count: int, seed: int) -> pd.DataFrame:
+    """Initial states of a study, one a row, with distance, m, and quadrant."""
+    drawn = initial_states(count, seed, distribution(section), base(section).mean_motion)
+    table = pd.DataFrame({"sample": np.arange(count, dtype=np.int32)})
+    table[list(STATE)] = drawn
+    table["distance_m"] = np.linalg.norm(drawn[:, :3], axis=1)
+    table["quadrant"] = quadrant(drawn).astype(np.int8)
+    return table

@@ -3,34 +3,18 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 import pyarrow as pa
 
 from smallsat.errors import InputError
-from smallsat.results import read_table, write_table
+from smallsat.results import read_table
 from smallsat.studies.rendezvous.monte_carlo.tables import KEY, SCHEMA, conforming
 
 
-def part(count: int, shard: int, shards: int) -> np.ndarray:
-    """Numbers of the units of one shard: every so-manieth, so that shards take equally long.
-
-    Parameters
-    ----------
-    count
-        Of all units.
-    shard
-        From 1 to ``shards``.
-    """
-    if not 1 <= shard <= shards:
-        raise InputError(f"shard {shard}: not allowed; from 1 to {shards}")
-    return np.arange(shard - 1, count, shards)
-
-
 def merge(
-    paths: Sequence[Path], output: Path, schema: pa.Schema = SCHEMA, key: Sequence[str] = KEY
+    paths: Sequence[Path], schema: pa.Schema = SCHEMA, key: Sequence[str] = KEY
 ) -> pd.DataFrame:
-    """Join shards in one order, whatever their number, and write them as one table.
+    """Join shards in one order, whatever their number.
 
     Raises
     ------
@@ -53,10 +37,9 @@ def merge(
     if twice.any():
         one = ", ".join(f"{name} {table.loc[twice, name].iloc[0]}" for name in key)
         raise InputError(
-            f"{output}: {one} is there twice; delete the folder of the shards and run "
+            f"{paths[0].parent}: {one} is there twice; delete the folder of the shards and run "
             f"`snakemake` again"
         )
-    write_table(table, output)
     return table
 
 

@@ -1,10 +1,5 @@
-"""Tables made from the manoeuvres of the studies: what a variant changes, and what r3 decides.
+"""Tables made from the manoeuvres of the studies: what a variant changes, and what r3 decides."""
 
-``python -m smallsat.studies.rendezvous.monte_carlo.summaries -h``
-"""
-
-import argparse
-import json
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -12,9 +7,7 @@ import numpy as np
 import pandas as pd
 
 from smallsat.config import Config
-from smallsat.errors import report_input_errors
-from smallsat.results import read_table, write_table
-from smallsat.studies.rendezvous.model.actuation_noise import readings_table, sampling
+from smallsat.results import read_table
 from smallsat.studies.rendezvous.monte_carlo.cases import (
     BASELINE,
     CLOHESSY_WILTSHIRE,
@@ -29,32 +22,11 @@ from smallsat.studies.rendezvous.monte_carlo.cases import (
     weighted_sweep_case,
 )
 from smallsat.studies.rendezvous.monte_carlo.tables import column, totals
-from smallsat.studies.rendezvous.simulation.disturbances import thrust_noise, thrust_reading
 
 QUANTILES = {"low": 0.05, "median": 0.5, "high": 0.95}
 QUANTITIES = {"delta_v": "delta_v_m_s", "time": "time_s"}
 # Of the sample paths in Figure 5.1.
 PATH_S, PATH_STEP_S, PATHS = 12.0 * 3600.0, 120.0, 20
-
-
-def main() -> None:
-    """Parse the command line and write all tables beside those of the manoeuvres."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--config", required=True, type=json.loads, help="its section, JSON")
-    parser.add_argument("--folder", required=True, type=Path, help="of the merged tables")
-    arguments = parser.parse_args()
-    section, folder = arguments.config, arguments.folder
-    noise, reading = thrust_noise(section), thrust_reading(section)
-    seed = section["studies"]["robustness"]["seed"]
-    for name, table in {
-        "variants": variants(section, folder),
-        "bounce": bounce(folder),
-        "deviations": deviations(folder),
-        "infeasible": infeasible(folder),
-        "thrust-readings": readings_table(noise),
-        "thrust-errors": sampling(noise, reading, PATH_S, PATH_STEP_S, PATHS, seed),
-    }.items():
-        write_table(table, folder / f"{name}.csv")
 
 
 def variants(section: Config, folder: Path) -> pd.DataFrame:
@@ -210,7 +182,3 @@ def infeasible(folder: Path) -> pd.DataFrame:
                 }
             )
     return pd.DataFrame(rows)
-
-
-if __name__ == "__main__":
-    report_input_errors(main)

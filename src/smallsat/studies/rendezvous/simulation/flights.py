@@ -1,13 +1,10 @@
 """The five manoeuvres of Section 3.6 flown by the configured law, as tidy tables."""
 
-from pathlib import Path
-
 import numpy as np
 import pandas as pd
 
 from smallsat.config import Config
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
-from smallsat.results import write_table
 from smallsat.studies.rendezvous.guidance.law import PHASES, Law
 from smallsat.studies.rendezvous.model.prediction import transition
 from smallsat.studies.rendezvous.parameters import CASES, law, start_state
@@ -20,8 +17,8 @@ CHANGE = ["dvx_m_s", "dvy_m_s", "dvz_m_s"]
 PIECES = 10
 
 
-def fly_cases(section: Config, folder: Path) -> None:
-    """Fly the cases and write ``flights``, ``paths`` and ``phases``.
+def fly_cases(section: Config) -> dict[str, pd.DataFrame]:
+    """Fly the cases: the tables ``flights``, ``paths`` and ``phases`` by file name.
 
     ``flights.parquet`` has a row a step (state before the control, velocity change, status) and a
     last row where the manoeuvre ended, ``paths.parquet`` the motion between samples, and
@@ -53,9 +50,11 @@ def fly_cases(section: Config, folder: Path) -> None:
                     "failed": int(flown.failed[number, phase]),
                 }
             )
-    write_table(pd.concat(flights, ignore_index=True), folder / "flights.parquet")
-    write_table(pd.concat(paths, ignore_index=True), folder / "paths.parquet")
-    write_table(pd.DataFrame(phases), folder / "phases.csv")
+    return {
+        "flights.parquet": pd.concat(flights, ignore_index=True),
+        "paths.parquet": pd.concat(paths, ignore_index=True),
+        "phases.csv": pd.DataFrame(phases),
+    }
 
 
 def _flight(case: str, steps: Steps, end: np.ndarray, given: Law) -> pd.DataFrame:

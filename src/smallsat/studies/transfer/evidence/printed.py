@@ -10,7 +10,7 @@ from smallsat.evidence.ledger import read_ledger
 from smallsat.evidence.printed import parse_printed
 from smallsat.studies.transfer.results import parse_case
 
-LEDGER = Path(__file__).parents[5] / "data/published/values.csv"
+LEDGER = Path(__file__).parents[5] / "data/published/transfer/values.csv"
 
 
 @cache

@@ -79,6 +79,15 @@ class Solved:
     trajectories: pd.DataFrame
     not_converged: list[NotConverged]
 
+    def tables(self, name: str) -> dict[str, pd.DataFrame]:
+        """Cases and trajectories by file name; seconds apart, which differ from build to build."""
+        timed = self.cases[self.cases["residual"].notna()]
+        return {
+            f"{name}.csv": self.cases.drop(columns="seconds"),
+            f"{name}.parquet": self.trajectories,
+            f"{name}-seconds.csv": timed[[*LABEL, "seconds"]],
+        }
+
 
 def indirect(config: Config) -> Solved:
     """Indirect shooting and indirect multiple shooting (Tables 1 and 2)."""

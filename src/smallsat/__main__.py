@@ -1,0 +1,35 @@
+"""The commands of the workflow: ``python -m smallsat COMMAND -h``."""
+
+import argparse
+import sys
+from importlib import import_module
+
+from smallsat.errors import report_input_errors
+
+# Each command is a module with `add_arguments` and `main`, and is imported alone: a rule's sources
+# are those of its command.
+COMMANDS = {
+    "run": "smallsat.workflow.run_step",
+    "notebook": "smallsat.workflow.notebook",
+    "judge": "smallsat.evidence.judge",
+    "merge": "smallsat.evidence.merge",
+    "summary": "smallsat.evidence.summary",
+    "content": "smallsat.report.content",
+    "typeset": "smallsat.report.typesetting",
+}
+
+
+def main() -> None:
+    """Parse the command line and run one command."""
+    name = sys.argv[1] if len(sys.argv) > 1 else ""
+    if name not in COMMANDS:
+        print(f"usage: python -m smallsat {{{','.join(COMMANDS)}}} ...", file=sys.stderr)
+        raise SystemExit(2)
+    command = import_module(COMMANDS[name])
+    parser = argparse.ArgumentParser(prog=f"python -m smallsat {name}", description=command.__doc__)
+    command.add_arguments(parser)
+    command.main(parser.parse_args(sys.argv[2:]))
+
+
+if __name__ == "__main__":
+    report_input_errors(main)

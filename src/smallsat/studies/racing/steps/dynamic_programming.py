@@ -1,0 +1,15 @@
+"""The optimum over ring speeds, by dynamic programming."""
+
+from smallsat.evidence.not_converged import not_converged_table
+from smallsat.step import Step, Tables
+from smallsat.studies.racing.methods.checks import dynamic_programming
+from smallsat.studies.racing.parameters import SCENARIOS, parameters
+
+
+def run(step: Step) -> Tables:
+    """Find it."""
+    table, missing = dynamic_programming(parameters(step.section), step.section, SCENARIOS[0])
+    return {
+        "dynamic-programming.csv": table,
+        "dynamic-programming-not-converged.csv": not_converged_table(missing),
+    }

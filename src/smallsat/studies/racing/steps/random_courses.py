@@ -1,0 +1,20 @@
+"""Optimal races on random courses, a shard of them."""
+
+from smallsat.evidence.not_converged import not_converged_table
+from smallsat.step import Step, Tables
+from smallsat.studies.racing.methods.random_courses import fly_random
+from smallsat.studies.racing.parameters import SCENARIOS, parameters
+
+
+def run(step: Step) -> Tables:
+    """Solve the shard's courses; seconds go to a file of their own."""
+    given = parameters(step.section)
+    rings = given.races[SCENARIOS[1]].course.rings
+    courses = step.shard.units(step.section["random_courses"]["courses"])
+    found, seconds, missing = fly_random(given, step.section, courses.tolist(), rings)
+    stem = f"random-courses-{step.shard}"
+    return {
+        f"{stem}.csv": found,
+        f"{stem}-seconds.csv": seconds,
+        f"{stem}-not-converged.csv": not_converged_table(missing),
+    }

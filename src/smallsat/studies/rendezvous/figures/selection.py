@@ -1,0 +1,11 @@
+"""Which figures there are: sweeps of the horizons that are flown."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from smallsat.config import Config
+
+
+def is_drawn(section: Config, notebook: str, what: Any, parameters: Mapping[str, Any]) -> bool:
+    """Whether the configuration has what a figure shows."""
+    return notebook != "sweep" or what in section["studies"][parameters["phase"]]["horizons"]

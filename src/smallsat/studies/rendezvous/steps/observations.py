@@ -1,0 +1,17 @@
+"""What is computed for every published value of the rendezvous."""
+
+from smallsat.evidence.not_converged import not_converged_table
+from smallsat.evidence.observation import observations_table
+from smallsat.step import Step, Tables
+from smallsat.studies.rendezvous.evidence.monte_carlo_observations import study_observations
+from smallsat.studies.rendezvous.evidence.observations import observations, undocked
+
+
+def run(step: Step) -> Tables:
+    """Observe, and list the manoeuvres that did not dock."""
+    section, results = step.section, step.results
+    found = observations(section, results) + study_observations({"rendezvous": section}, results)
+    return {
+        "observations.csv": observations_table(found),
+        "not-converged.csv": not_converged_table(undocked(results)),
+    }

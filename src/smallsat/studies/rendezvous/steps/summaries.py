@@ -1,0 +1,25 @@
+"""What the variants of the manoeuvres change, and what the docking distance decides."""
+
+from smallsat.step import Step, Tables
+from smallsat.studies.rendezvous.model.actuation_noise import readings_table, sampling
+from smallsat.studies.rendezvous.monte_carlo import summaries
+from smallsat.studies.rendezvous.simulation.disturbances import thrust_noise, thrust_reading
+
+# Of the sample paths in Figure 5.1.
+PATH_S, PATH_STEP_S, PATHS = 12.0 * 3600.0, 120.0, 20
+
+
+def run(step: Step) -> Tables:
+    """Summarise them."""
+    section, folder = step.section, step.results / "studies"
+    noise, reading = thrust_noise(section), thrust_reading(section)
+    seed = section["studies"]["robustness"]["seed"]
+    tables = {
+        "variants": summaries.variants(section, folder),
+        "bounce": summaries.bounce(folder),
+        "deviations": summaries.deviations(folder),
+        "infeasible": summaries.infeasible(folder),
+        "thrust-readings": readings_table(noise),
+        "thrust-errors": sampling(noise, reading, PATH_S, PATH_STEP_S, PATHS, seed),
+    }
+    return {f"studies/{name}.csv": table for name, table in tables.items()}

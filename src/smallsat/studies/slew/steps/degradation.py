@@ -1,0 +1,15 @@
+"""The 180 deg turn over the wheels' torque."""
+
+from smallsat.evidence.not_converged import not_converged_table
+from smallsat.step import Step, Tables
+from smallsat.studies.slew.methods.beyond import degradation
+from smallsat.studies.slew.parameters import parameters
+
+
+def run(step: Step) -> Tables:
+    """Plan it for each share of the torque."""
+    tables, missing = degradation(step.section, parameters(step.section))
+    return {
+        "degradation.csv": tables["degradation"],
+        "degradation-not-converged.csv": not_converged_table(missing),
+    }

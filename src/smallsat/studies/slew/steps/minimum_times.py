@@ -1,0 +1,26 @@
+"""Least times from rest to rest, by two methods, and a bound below them."""
+
+import pandas as pd
+
+from smallsat.evidence.not_converged import not_converged_table
+from smallsat.step import Step, Tables
+from smallsat.studies.slew.methods import minimum_time
+from smallsat.studies.slew.methods.bound import bound_time
+from smallsat.studies.slew.parameters import parameters
+
+
+def run(step: Step) -> Tables:
+    """Find them."""
+    given = parameters(step.section)
+    tables, missing = minimum_time.tables(step.section, given)
+    bounds = [
+        {
+            "model": "wheels, gravity gradient" if gradient else "wheels",
+            "bound_s": bound_time(given, gradient),
+        }
+        for gradient in (False, True)
+    ]
+    return {f"{name}.csv": table for name, table in tables.items()} | {
+        "bound.csv": pd.DataFrame(bounds),
+        "minimum-times-not-converged.csv": not_converged_table(missing),
+    }

@@ -1,0 +1,20 @@
+"""What is computed for every published value of the slews."""
+
+from smallsat.evidence.not_converged import joined
+from smallsat.evidence.observation import observations_table
+from smallsat.step import Step, Tables
+from smallsat.studies.slew.evidence.observations import observations, timings
+from smallsat.studies.slew.parameters import parameters
+
+# Steps that solve, and list what they did not solve in a table of their own.
+SOLVING = ("minimum-times", "plans", "trade-off", "degradation", "tracking")
+
+
+def run(step: Step) -> Tables:
+    """Observe, list what did not converge, and find our seconds for the printed ones."""
+    given = parameters(step.section)
+    return {
+        "observations.csv": observations_table(observations(step.section, given, step.results)),
+        "not-converged.csv": joined(step.results, SOLVING),
+        "timings.csv": timings(given, step.results),
+    }

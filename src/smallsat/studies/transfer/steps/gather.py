@@ -1,0 +1,19 @@
+"""All cases as published in one table, and the experiment behind an inference."""
+
+import pandas as pd
+
+from smallsat.results import read_table
+from smallsat.step import Step, Tables
+from smallsat.studies.transfer.evidence.early_stopping import early_stopping_table
+
+
+def run(step: Step) -> Tables:
+    """Join the numbers of intervals; compare early-stopped runs with Table 4."""
+    shards = [f"as-published-k{intervals}" for intervals in (1, *step.section["intervals"])]
+    tables = {
+        f"as-published{suffix}": pd.concat(
+            [read_table(step.results / f"{shard}{suffix}") for shard in shards], ignore_index=True
+        )
+        for suffix in (".csv", ".parquet", "-seconds.csv")
+    }
+    return tables | {"early-stopping.csv": early_stopping_table(tables["as-published.csv"])}

@@ -1,0 +1,26 @@
+"""What is computed for every published value of the orbit transfer."""
+
+import pandas as pd
+
+from smallsat.evidence.ledger import read_ledger
+from smallsat.evidence.not_converged import joined
+from smallsat.evidence.observation import observations_table
+from smallsat.results import read_table
+from smallsat.step import Step, Tables
+from smallsat.studies.transfer.evidence.observations import observe, seconds
+
+# Experiments whose cases we must solve; what the document's own method leaves unsolved is a result.
+OURS = ("indirect", "converged", "continuous", "multistart", "collocation")
+
+
+def run(step: Step) -> Tables:
+    """Observe, list what did not converge, and find our seconds for the printed ones."""
+    rows = read_ledger(step.published / "values.csv")
+    measured = [
+        read_table(step.results / f"{name}-seconds.csv") for name in ("indirect", "as-published")
+    ]
+    return {
+        "observations.csv": observations_table(observe(rows, step.results)),
+        "not-converged.csv": joined(step.results, OURS),
+        "timings.csv": seconds(rows, step.results, pd.concat(measured)),
+    }

@@ -1,0 +1,36 @@
+"""Run one computing step of a study and write its tables."""
+
+import argparse
+import json
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+
+from smallsat.results import write_table
+from smallsat.step import Shard, Step, Tables
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of ``run``."""
+    parser.add_argument("study")
+    parser.add_argument("step", help="a module of the study's steps")
+    parser.add_argument("--config", required=True, type=json.loads, help="its section, JSON")
+    parser.add_argument("--results", required=True, type=Path, help="folder of its results")
+    parser.add_argument("--published", default=Path(), type=Path, help="folder of its values")
+    parser.add_argument("--part", default="", help="of a step that runs in parts")
+    parser.add_argument("--shard", default="1-of-1", help="of a step that is shared out")
+
+
+def main(arguments: argparse.Namespace) -> None:
+    """Run the step; each table goes into the folder of the study's results."""
+    module = import_module(f"smallsat.studies.{arguments.study}.steps.{arguments.step}")
+    run: Callable[[Step], Tables] = module.run
+    step = Step(
+        arguments.config,
+        arguments.results,
+        arguments.published,
+        arguments.part,
+        Shard.parse(arguments.shard),
+    )
+    for name, table in run(step).items():
+        write_table(table, step.results / name)

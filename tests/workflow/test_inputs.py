@@ -1,0 +1,134 @@
+"""A rule's inputs are what its job reads: held against the files that the jobs did open.
+
+`make test` lets every job of its run note the files of the project that it opens
+(`smallsat.opened`); the notebooks' jobs are run here, one of each notebook.
+"""
+
+import json
+import re
+import shlex
+import subprocess
+from dataclasses import dataclass, field
+
+import pytest
+
+from smallsat.catalogue import read_catalogue
+from smallsat.workflow.figures import read_runs
+
+RUN = "runs/tests"
+# Typst opens its templates by itself, so nothing is seen of them.
+UNSEEN = ("smallsat typeset",)
+
+
+@dataclass
+class Job:
+    """A job of Snakemake: what its rule declares and what its processes opened."""
+
+    rule: str
+    inputs: set[str]
+    outputs: set[str] = field(default_factory=set)
+    opened: set[str] | None = None
+
+
+def words_of(command):
+    """The command before its output is sent elsewhere, as its process sees it."""
+    return tuple(shlex.split(command.partition(" > ")[0].partition(" | ")[0]))
+
+
+def source(name):
+    """The source file of a compiled one."""
+    return re.sub(r"__pycache__/(\w+)\.cpython-\d+\.pyc$", r"\1.py", name)
+
+
+def projected(root, run, names):
+    """Names as seen from the folder of a run, as seen from the project."""
+    return {(run / name).resolve().relative_to(root).as_posix() for name in names}
+
+
+def figures(root):
+    """One figure, or film, of each notebook."""
+    for study in read_catalogue(root / "data/published"):
+        first = {run.notebook: run for run in reversed(read_runs(root / "notebooks" / study.name))}
+        for run in first.values():
+            if run.figures:
+                yield f"{run.stems[0]}.svg"
+
+
+@pytest.fixture(scope="module")
+def jobs(root, tested_run):
+    """Every job of the tests' run and of one figure of each notebook."""
+    records = root / RUN / "opened"
+    options = ["--configfile", "config/tests.yaml"]
+    targets = ["verdicts", *figures(root)]
+    environment = {"SMALLSAT_OPENED": str(records)}
+    snakemake = [str(root / ".venv/bin/snakemake"), *targets, *options]
+    done = run_clean([*snakemake, "--cores", "2"], root, environment)
+    assert done.returncode == 0, done.stderr[-2000:]
+    listed = run_clean([*snakemake, "--detailed-summary"], root, {}).stdout.splitlines()
+    header = listed[0].split("\t")
+    found: dict[tuple[str, ...], Job] = {}
+    for line in listed[1:]:
+        row = dict(zip(header, line.split("\t"), strict=False))
+        inputs = projected(root, tested_run, row["input-file(s)"].split(","))
+        job = found.setdefault(words_of(row["shellcmd"]), Job(row["rule"], inputs))
+        job.outputs |= projected(root, tested_run, [row["output_file"]])
+    read_records(records, found)
+    return list(found.items())
+
+
+def run_clean(command, root, more):
+    import os
+
+    environment = {name: value for name, value in os.environ.items() if name != "SMALLSAT_OPENED"}
+    return subprocess.run(
+        command, cwd=root, env=environment | more, capture_output=True, text=True, check=False
+    )
+
+
+def read_records(folder, jobs):
+    """Give each job what its last process opened, and the kernels that this one started."""
+    processes = {}
+    for path in sorted(folder.glob("*.txt")):
+        head, *names = path.read_text().splitlines()
+        process = json.loads(head)
+        words = ("python", *process["argv"][1:])
+        if words in jobs:
+            jobs[words].opened = set(names)
+            processes[process["pid"]] = jobs[words]
+        elif process["parent"] in processes:
+            processes[process["parent"]].opened |= set(names)
+
+
+def test_every_job_was_seen(jobs):
+    """No job without a record, but those whose library opens files by itself."""
+    unseen = [job.rule for words, job in jobs if job.opened is None and words[1:2] == ("-m",)]
+    assert unseen == []
+
+
+def test_what_a_job_opens_is_declared(jobs):
+    """Sources, published values, results and notebooks: nothing is read behind Snakemake's back."""
+    wrong = {}
+    for _, job in jobs:
+        beside = {name.rpartition("/")[0] for name in job.outputs}
+        undeclared = {
+            name
+            for name in map(source, job.opened or ())
+            if name not in job.inputs | job.outputs
+            # A table is written beside its place and then moved there.
+            and not (name.endswith(".partial") and name.rpartition("/")[0] in beside)
+        }
+        if undeclared:
+            wrong[job.rule] = sorted(undeclared)
+    assert wrong == {}
+
+
+def test_what_is_declared_is_read(jobs):
+    """A change of a published file or of a result reruns no job that does not read it."""
+    wrong = {}
+    for words, job in jobs:
+        if job.opened is None or " ".join(words[2:4]) in UNSEEN:
+            continue
+        data = {name for name in job.inputs if name.startswith(("data/", RUN))}
+        if unread := data - {source(name) for name in job.opened}:
+            wrong[job.rule] = sorted(unread)
+    assert wrong == {}
