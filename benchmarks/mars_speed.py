@@ -9,7 +9,7 @@ from smallsat.config import read_yaml
 from smallsat.studies.mars.methods.simulation import AUTOMATIC, run
 from smallsat.studies.mars.parameters import Parameters, parameters
 
-CONFIG = Path(__file__).parents[1] / "config/default.yaml"
+CONFIG = Path(__file__).parents[1] / "config/default/mars.yaml"
 REPETITIONS = 5
 
 

@@ -15,7 +15,7 @@ from smallsat.studies.racing.model.course import generate
 from smallsat.studies.racing.model.cubesat import CubeSat
 from smallsat.studies.racing.parameters import parameters
 
-CONFIG = Path(__file__).parents[1] / "config/default.yaml"
+CONFIG = Path(__file__).parents[1] / "config/default/racing.yaml"
 COURSES = 20
 
 

@@ -25,7 +25,7 @@ from smallsat.studies.rendezvous.simulation.closed_loop import Manoeuvres, manoe
 from smallsat.studies.rendezvous.simulation.disturbances import disturbances
 from smallsat.studies.rendezvous.simulation.disturbed_loop import disturbed_manoeuvres
 
-CONFIG = Path(__file__).parents[1] / "config/default.yaml"
+CONFIG = Path(__file__).parents[1] / "config/default/rendezvous.yaml"
 MANOEUVRES = 200
 NOISY = 40
 DOUBLINGS = (125, 250, 500)

@@ -42,7 +42,7 @@ GROUPS = (
 
 def measure() -> dict[str, float]:
     """Processor seconds of the baseline from ever more states, and how linear they are."""
-    section = read_yaml(ROOT / "config/default.yaml")["rendezvous"]
+    section = read_yaml(ROOT / "config/default/rendezvous.yaml")["rendezvous"]
     law = base(section)
     states = states_table(section, max(SAMPLES), section["studies"]["seed"])[list(STATE)].to_numpy()
     manoeuvres([law], states[:1])  # compiles

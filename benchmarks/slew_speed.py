@@ -16,7 +16,7 @@ from smallsat.studies.slew.methods.guidance_problem import Guidance, Result, pro
 from smallsat.studies.slew.methods.plans import guidance_model
 from smallsat.studies.slew.parameters import Parameters, parameters
 
-CONFIG = Path(__file__).parents[1] / "config/default.yaml"
+CONFIG = Path(__file__).parents[1] / "config/default/slew.yaml"
 REPETITIONS = 3
 HALF_TURN_S = 110.0
 

@@ -63,7 +63,7 @@ def port_of_the_listing(problem: TransferProblem, case: Case, guess: np.ndarray,
 
 def measure() -> dict[str, float]:
     """Seconds and ratios; every ratio is port over ours in this same run."""
-    config = read_yaml(ROOT / "config/default.yaml")["transfer"]
+    config = read_yaml(ROOT / "config/default/transfer.yaml")["transfer"]
     problem = TransferProblem.from_config(config)
     ours = port = 0.0
     for degree, intervals in CASES:

@@ -24,8 +24,9 @@ for report, shown in REPORTS.items():
                 for path in sorted((PUBLISHED / study).glob("*"))
                 if path.name in ("artefacts.csv", "extras.yaml")
             ],
-            default=project("config/default.yaml"),
-            schema=project("config/schema.yaml"),
+            config=[
+                project(path.relative_to(ROOT)) for path in sorted(ROOT.glob("config/*/*.yaml"))
+            ],
             verdicts="data/results/verdicts.csv" if report == "report" else [],
             findings=[
                 path
@@ -49,7 +50,7 @@ for report, shown in REPORTS.items():
         benchmark:
             f"logs/report/{report}-content.benchmark.tsv"
         params:
-            project=lambda w, input: Path(input.schema).parents[1],
+            project=lambda w, input: Path(input.config[0]).parents[2],
             config=as_json(CONFIG),
             left_out=as_json(LEFT_OUT),
             studies="" if report == "report" else f"--studies {report}",

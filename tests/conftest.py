@@ -3,8 +3,8 @@
 from pathlib import Path
 
 import pytest
-import yaml
 
+from smallsat.config import default_config
 from smallsat.workflow.isolation import isolate
 
 ROOT = Path(__file__).parents[1]
@@ -19,7 +19,7 @@ def root() -> Path:
 
 @pytest.fixture(scope="session")
 def config() -> dict:
-    return yaml.safe_load((ROOT / "config/default.yaml").read_text())
+    return default_config(ROOT)
 
 
 @pytest.fixture(scope="session")

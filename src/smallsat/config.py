@@ -11,6 +11,7 @@ from typing import Any
 
 import jsonschema
 
+from smallsat.catalogue import read_catalogue
 from smallsat.errors import InputError
 from smallsat.strict_yaml import parse_yaml, read_yaml
 
@@ -30,13 +31,33 @@ _KEY = re.compile(r"[a-zA-Z_][\w-]*\w")
 
 
 def default_config(project: Path) -> Config:
-    """The documents' own values, from ``config/default.yaml``."""
-    return validate(read_yaml(project / "config/default.yaml"), schema_of(project))
+    """The documents' own values, from the files in ``config/default``, one a study."""
+    config: Config = {"run": ""}
+    for study in read_catalogue(project / "data/published"):
+        path = project / f"config/default/{study.name}.yaml"
+        entries = read_yaml(path)
+        if not isinstance(entries, dict) or list(entries) != [study.name]:
+            raise InputError(f"{path}: needs the one key '{study.name}', with the study's values")
+        config |= entries
+    return validate(config, schema_of(project))
 
 
 def schema_of(project: Path) -> dict[str, Any]:
-    """The JSON schema in ``config/schema.yaml``."""
-    return read_yaml(project / "config/schema.yaml")
+    """The JSON schema of the configuration, from the files in ``config/schema``, one a study."""
+    folder = project / "config/schema"
+    sections: dict[str, Any] = {"run": {"type": "string", "pattern": "^[A-Za-z0-9_-]*$"}}
+    definitions = read_yaml(folder / "common.yaml")
+    for study in read_catalogue(project / "data/published"):
+        section = read_yaml(folder / f"{study.name}.yaml")
+        definitions |= section.pop("$defs", {})
+        sections[study.name] = section
+    return {
+        "$defs": definitions,
+        "type": "object",
+        "additionalProperties": False,
+        "required": list(sections),
+        "properties": sections,
+    }
 
 
 def overlaid_config(

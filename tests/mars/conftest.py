@@ -6,7 +6,7 @@ from smallsat.strict_yaml import read_yaml
 from smallsat.studies.mars.methods.simulation import document_runs
 from smallsat.studies.mars.parameters import parameters
 
-CONFIG = Path(__file__).parents[2] / "config/default.yaml"
+CONFIG = Path(__file__).parents[2] / "config/default/mars.yaml"
 
 
 @pytest.fixture(scope="session")

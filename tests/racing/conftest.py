@@ -5,7 +5,7 @@ import pytest
 from smallsat.strict_yaml import read_yaml
 from smallsat.studies.racing.parameters import parameters
 
-CONFIG = Path(__file__).parents[2] / "config/default.yaml"
+CONFIG = Path(__file__).parents[2] / "config/default/racing.yaml"
 
 
 @pytest.fixture(scope="session")

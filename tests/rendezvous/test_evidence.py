@@ -16,7 +16,7 @@ from smallsat.studies.rendezvous.evidence import claims, errata
 from smallsat.studies.rendezvous.parameters import law
 from smallsat.studies.rendezvous.simulation.flights import CHANGE, STATE
 
-CONFIG = Path(__file__).parents[2] / "config/default.yaml"
+CONFIG = Path(__file__).parents[2] / "config/default/rendezvous.yaml"
 
 
 @pytest.fixture(scope="module")

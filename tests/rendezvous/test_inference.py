@@ -20,7 +20,7 @@ from smallsat.studies.rendezvous.inference.search import (
 from smallsat.studies.rendezvous.inference.summary import acceptable, identified, profiles
 from smallsat.studies.rendezvous.simulation.delta_v import READINGS, in_turned_axes, summed
 
-CONFIG = Path(__file__).parents[2] / "config/default.yaml"
+CONFIG = Path(__file__).parents[2] / "config/default/rendezvous.yaml"
 
 
 @pytest.fixture(scope="module")

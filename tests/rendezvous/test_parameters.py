@@ -1,13 +1,11 @@
 """What the configuration's check and schema refuse, in one line each."""
 
-import copy
 from pathlib import Path
 
 import pytest
 
-from smallsat.config import validate
+from smallsat.config import default_config, schema_of, validate
 from smallsat.errors import InputError
-from smallsat.strict_yaml import read_yaml
 from smallsat.studies.rendezvous.parameters import CASES, check, law, start_state
 
 ROOT = Path(__file__).parents[2]
@@ -15,7 +13,7 @@ ROOT = Path(__file__).parents[2]
 
 @pytest.fixture
 def config():
-    return copy.deepcopy(read_yaml(ROOT / "config/default.yaml"))
+    return default_config(ROOT)
 
 
 def refuse(config, keys, value):
@@ -25,7 +23,7 @@ def refuse(config, keys, value):
         place = place[key]
     place[keys[-1]] = value
     with pytest.raises(InputError) as refusal:
-        check(validate(config, read_yaml(ROOT / "config/schema.yaml"))["rendezvous"])
+        check(validate(config, schema_of(ROOT))["rendezvous"])
     return str(refusal.value)
 
 

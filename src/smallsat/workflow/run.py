@@ -2,15 +2,11 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 
 from smallsat.config import Config, default_config, overlaid_config, run_folder, schema_of
-from smallsat.studies.mars.parameters import check as check_mars
-from smallsat.studies.racing.parameters import parameters as check_racing
-from smallsat.studies.racing.parameters import with_absolute_course_files
-from smallsat.studies.rendezvous.parameters import check as check_rendezvous
-from smallsat.studies.slew.parameters import check as check_slew
-from smallsat.studies.transfer.parameters import check as check_transfer
 
 
 @dataclass(frozen=True)
@@ -59,10 +55,13 @@ def checked(config: Config) -> Config:
     InputError
         Naming the first key that does not do, its value and what is allowed.
     """
-    config = with_absolute_course_files(config)
-    check_transfer(config["transfer"])
-    check_mars(config["mars"])
-    check_slew(config["slew"])
-    check_racing(config["racing"])
-    check_rendezvous(config["rendezvous"])
-    return config
+    return {
+        key: _checked(key, value) if isinstance(value, dict) else value
+        for key, value in config.items()
+    }
+
+
+def _checked(study: str, section: Config) -> Config:
+    """The section after the checks of its study, if this has a module ``parameters``."""
+    name = f"smallsat.studies.{study}.parameters"
+    return section if find_spec(name) is None else import_module(name).check(section)

@@ -80,7 +80,7 @@ def parameters(section: Config) -> Parameters:
     )
 
 
-def check(section: Config) -> None:
+def check(section: Config) -> Config:
     """Refuse what the schema cannot: keys that contradict one another, a body that is none.
 
     A rate must be that of a circular orbit at its altitude, and every time a step of its run.
@@ -114,6 +114,7 @@ def check(section: Config) -> None:
                 f"config key 'mars.{key}': {time:g} is not allowed; must be a multiple of step_s "
                 f"{section['step_s']:g}{within}"
             )
+    return section
 
 
 def _times(section: Config) -> Iterator[tuple[str, float, float]]:

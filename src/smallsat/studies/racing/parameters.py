@@ -55,8 +55,13 @@ class Parameters:
 
 
 def parameters(section: Config) -> Parameters:
-    """Parameters from the validated section; courses are generated here."""
-    check(section)
+    """Parameters from the checked section; courses are generated or read here.
+
+    Raises
+    ------
+    InputError
+        Naming the file or key of a course that is none, or of a CubeSat that starts in its ring.
+    """
     given, passage = section["as_published"], section["passage"]
     ranges = ranges_of(section)
     return Parameters(
@@ -133,8 +138,8 @@ def course_files(config: Config) -> list[str]:
     return sorted({race["course_file"] for race in races} - {""})
 
 
-def check(section: Config) -> None:
-    """Check what a schema cannot.
+def check(section: Config) -> Config:
+    """Check what a schema cannot; paths of course files become absolute: jobs run elsewhere.
 
     Raises
     ------
@@ -162,6 +167,13 @@ def check(section: Config) -> None:
                 f"'{given['course_file']}' {what}; give a CSV file's path from the folder "
                 f'in which snakemake is called, or "" for the course of the seed'
             )
+    parameters(section)
+    scenarios = {
+        name: race
+        | {"course_file": str(Path(race["course_file"]).resolve()) if race["course_file"] else ""}
+        for name, race in section["scenarios"].items()
+    }
+    return section | {"scenarios": scenarios}
 
 
 def number_of_cubesats(config: Config) -> int:
@@ -179,13 +191,3 @@ def rings_of_scenario_2(config: Config) -> int:
     """Number of rings that the seed of Scenario 2 gives."""
     section = config["racing"]
     return _race(section, "scenario-2", ranges_of(section)).course.rings
-
-
-def with_absolute_course_files(config: Config) -> Config:
-    """The configuration with the paths of courses absolute: jobs run in the folder of the run."""
-    scenarios = {
-        name: race
-        | {"course_file": str(Path(race["course_file"]).resolve()) if race["course_file"] else ""}
-        for name, race in config["racing"]["scenarios"].items()
-    }
-    return config | {"racing": config["racing"] | {"scenarios": scenarios}}

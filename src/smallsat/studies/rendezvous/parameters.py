@@ -93,7 +93,7 @@ def law(section: Config, case: str = "v-bar") -> Law:
     return common
 
 
-def check(section: Config) -> None:
+def check(section: Config) -> Config:
     """Refuse what the schema cannot: zones that contradict each other or the start.
 
     Raises
@@ -130,6 +130,7 @@ def check(section: Config) -> None:
             f"config key 'rendezvous.truth.gravity_order': {truth['gravity_order']} is not "
             f"allowed; must be at most 'gravity_degree', {truth['gravity_degree']}"
         )
+    return section
 
 
 def _check_orbit(mean_motion: float) -> None:

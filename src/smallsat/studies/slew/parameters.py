@@ -149,7 +149,7 @@ def half_angle_deg(config: Config) -> float:
     return parameters(config["slew"]).angle_deg("half")
 
 
-def check(section: Config) -> None:
+def check(section: Config) -> Config:
     """Refuse what the schema cannot: no body, quaternion, turn or orbit, and what contradicts.
 
     Raises
@@ -206,6 +206,7 @@ def check(section: Config) -> None:
             f"config key 'slew.environment.density_factors': {factors} lacks the factor 1, which "
             f"the curves are drawn for; add it"
         )
+    return section
 
 
 def _check_faces(craft: Config) -> None:

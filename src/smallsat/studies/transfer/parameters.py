@@ -11,7 +11,7 @@ from smallsat.studies.transfer.model.units import canonical
 TUBES = np.linspace(0.001, 0.999, 999)
 
 
-def check(section: Config) -> None:
+def check(section: Config) -> Config:
     """Refuse a transfer that no solution can have, and bounds that contradict themselves.
 
     Raises
@@ -33,6 +33,7 @@ def check(section: Config) -> None:
             f"the final radius {problem.final_radius}; give less thrust, a higher exhaust_speed or "
             "a nearer final_radius"
         )
+    return section
 
 
 def _may_arrive(problem: TransferProblem) -> bool:
