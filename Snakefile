@@ -13,7 +13,7 @@ from pathlib import Path
 
 from smallsat.catalogue import read_catalogue
 from smallsat.errors import InputError
-from smallsat.evidence.ledger import read_artefacts, read_ledger
+from smallsat.evidence.ledger import read_published
 from smallsat.strict_yaml import read_yaml
 from smallsat.workflow.figures import drawn, read_runs
 from smallsat.workflow.isolation import isolate
@@ -36,10 +36,9 @@ try:
     given = workflow.config_settings
     run = read_run(ROOT, given.configfiles, given.config_args or [])
     CONFIG, RUN_FOLDER = run.config, run.folder
-    STUDIES = [study.name for study in read_catalogue(PUBLISHED)]
-    for study in STUDIES:
-        read_ledger(PUBLISHED / study / "values.csv")
-    ARTEFACTS = {study: read_artefacts(PUBLISHED / study / "artefacts.csv") for study in STUDIES}
+    catalogue = read_catalogue(PUBLISHED)
+    STUDIES = [study.name for study in catalogue]
+    ARTEFACTS = {study.name: read_published(PUBLISHED, study)[1] for study in catalogue}
     FIGURES = {study: read_runs(ROOT / "notebooks" / study) for study in STUDIES}
     # Without the figures of cases that a what-if run leaves out.
     RUNS = {study: [drawn(run, CONFIG[study]) for run in FIGURES[study]] for study in STUDIES}

@@ -1,11 +1,15 @@
 """The studies of the project: the one list of them, read from each ``study.yaml``."""
 
 from dataclasses import dataclass, fields
+from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 from smallsat.errors import InputError
 from smallsat.strict_yaml import read_yaml
+
+NUMBERS = ("order", "values", "artefacts")
 
 
 @dataclass(frozen=True)
@@ -22,12 +26,16 @@ class Study:
         Of the document; author and year are empty where the document does not name them.
     subject
         What the study is about, as a heading.
+    values, artefacts
+        Number of published values, and of tables, figures and films: none may be lost.
     """
 
     name: str
     order: int
     title: str
     subject: str
+    values: int
+    artefacts: int
     author: str = ""
     year: int | None = None
 
@@ -57,13 +65,21 @@ def read_catalogue(published: Path) -> list[Study]:
     return [by_order[order] for order in sorted(by_order)]
 
 
+def study_module(study: str, name: str) -> ModuleType | None:
+    """A module of a study's code, such as ``figures.selection``; none if it has no such file."""
+    folder = Path(__file__).parent / "studies" / study
+    path = folder.joinpath(*name.split(".")).with_suffix(".py")
+    return import_module(f"smallsat.studies.{study}.{name}") if path.exists() else None
+
+
 def _study(path: Path) -> Study:
     entries: Any = read_yaml(path)
     known = [field.name for field in fields(Study) if field.name != "name"]
     if not isinstance(entries, dict) or set(entries) - set(known):
         raise InputError(f"{path}: allowed are the keys {', '.join(known)}; correct it")
-    if missing := {"order", "title", "subject"} - set(entries):
+    if missing := {"title", "subject", *NUMBERS} - set(entries):
         raise InputError(f"{path}: '{min(missing)}' is missing; add it")
-    if not isinstance(entries["order"], int):
-        raise InputError(f"{path}: 'order' is {entries['order']!r}; give a whole number")
+    for key in NUMBERS:
+        if not isinstance(entries[key], int):
+            raise InputError(f"{path}: '{key}' is {entries[key]!r}; give a whole number")
     return Study(path.parent.name, **entries)

@@ -71,7 +71,9 @@ def published(tmp_path):
     folder = tmp_path / "published"
     (folder / "transfer").mkdir(parents=True)
     (folder / "transfer/values.csv").write_text(",".join(VALUE_COLUMNS) + "\n" + LEDGER)
-    (folder / "transfer/study.yaml").write_text("{order: 1, title: A paper, subject: Transfers}")
+    (folder / "transfer/study.yaml").write_text(
+        "{order: 1, title: A paper, subject: Transfers, values: 4, artefacts: 3}"
+    )
     entries = {
         "rules": [],
         "errata": [],

@@ -1,16 +1,19 @@
 """The ledger: damage of any kind is one line that names file, line and what is allowed."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from smallsat.catalogue import read_catalogue
 from smallsat.errors import InputError
 from smallsat.evidence.ledger import (
     ARTEFACT_COLUMNS,
     VALUE_COLUMNS,
     read_artefacts,
     read_ledger,
+    read_published,
 )
 
 HEADER = ",".join(VALUE_COLUMNS)
@@ -25,13 +28,13 @@ def ledger(tmp_path, *rows, header=HEADER):
     return path
 
 
-def test_the_real_ledger_is_whole():
+@pytest.mark.parametrize("study", read_catalogue(PUBLISHED), ids=lambda study: study.name)
+def test_the_real_ledgers_are_whole(study):
     """Every published number and artefact is there: none may be lost in an edit."""
-    rows = [row for path in PUBLISHED.glob("*/values.csv") for row in read_ledger(path)]
-    artefacts = [row for path in PUBLISHED.glob("*/artefacts.csv") for row in read_artefacts(path)]
-    kinds = [row["kind"] for row in artefacts]
-    assert len(rows) == 1714
-    assert (kinds.count("table"), kinds.count("figure"), kinds.count("animation")) == (28, 200, 3)
+    values, artefacts = read_published(PUBLISHED, study)
+    assert (len(values), len(artefacts)) == (study.values, study.artefacts)
+    with pytest.raises(InputError, match=r"values.csv: \d+ rows, but study.yaml says values: 1;"):
+        read_published(PUBLISHED, replace(study, values=1))
 
 
 def test_a_good_row_is_read_as_text(tmp_path):

@@ -1,4 +1,4 @@
-"""What each claim and each proof came to is pinned in ``data/accepted``: a flip is shown.
+"""What each claim and each proof came to is pinned in ``data/accepted/<study>``: a flip is shown.
 
 ``claims.csv`` has two outcomes a claim: of the reproduction, and of the run that `make test` makes,
 in which the Monte Carlo parts have a share of their samples and some claims stay undecided.
@@ -33,7 +33,11 @@ def flips(accepted, found, name, column, file):
 
 
 def accepted_of(root, file, name, column):
-    table = pd.read_csv(root / file, dtype=str).fillna("nothing yet").set_index(["study", name])
+    tables = [
+        pd.read_csv(path, dtype=str).assign(study=path.parent.name)
+        for path in sorted(root.glob(file))
+    ]
+    table = pd.concat(tables).fillna("nothing yet").set_index(["study", name])
     assert table.index.is_unique
     return table[column].to_dict()
 
@@ -57,7 +61,7 @@ def judged_run(request, root):
 def test_no_claim_flips(root, judged_run):
     """Every claim has its accepted outcome."""
     run, column = judged_run
-    file = "data/accepted/claims.csv"
+    file = "data/accepted/*/claims.csv"
     accepted = accepted_of(root, file, "id", column)
     found = flips(accepted, found_in(run, "claims", "id"), "evidence", "outcome", file)
     assert not found, "\n".join(found)
@@ -66,7 +70,7 @@ def test_no_claim_flips(root, judged_run):
 def test_no_proof_flips(root, judged_run):
     """Every proof holds or fails as accepted."""
     run, _ = judged_run
-    file = "data/accepted/errata.csv"
+    file = "data/accepted/*/errata.csv"
     accepted = accepted_of(root, file, "key", "holds")
     found = found_in(run, "errata", "key").astype({"holds": str})
     found = flips(accepted, found, "statement", "holds", file)

@@ -43,14 +43,6 @@ def verdicts(tested_run):
     return pd.read_csv(path, keep_default_na=False, na_values=[""]).set_index("id")
 
 
-def test_ledger_has_every_printed_value(ledger):
-    """1714 values of five documents, each id once (the reader refuses duplicates)."""
-    counts = pd.Series([row["document"] for row in ledger.values()]).value_counts()
-    assert counts.to_dict() == {
-        "mars": 572, "transfer": 478, "rendezvous": 257, "slew": 214, "racing": 193
-    }  # fmt: skip
-
-
 def test_every_value_has_one_verdict(ledger, verdicts):
     """The verdicts cover the ledger, row for row."""
     assert sorted(verdicts.index) == sorted(ledger)
@@ -160,11 +152,10 @@ def test_every_claim_is_judged(tested_run, document):
 
 
 def test_artefacts_have_targets():
-    """231 artefacts; those of parts that are built name a target, the others are pending."""
+    """Artefacts of parts that are built name a target, the others are pending."""
     artefacts = [
         row for study in STUDIES for row in read_artefacts(PUBLISHED / study / "artefacts.csv")
     ]
-    assert len(artefacts) == 28 + 200 + 3
     for row in artefacts:
         _, artefact_ids = PARTLY_BUILT.get(row["document"], ("", "(?!)"))
         waiting = re.match(artefact_ids, row["id"])

@@ -90,7 +90,9 @@ def project(tmp_path_factory):
     published = folder / "data/published"
     (published / "transfer").mkdir(parents=True)
     own = published / "transfer"
-    (own / "study.yaml").write_text("{order: 1, title: A paper, subject: Transfers}")
+    (own / "study.yaml").write_text(
+        "{order: 1, title: A paper, subject: Transfers, values: 4, artefacts: 3}"
+    )
     (own / "values.csv").write_text(",".join(VALUE_COLUMNS) + "\n" + VALUES)
     (own / "artefacts.csv").write_text(",".join(ARTEFACT_COLUMNS) + "\n" + ARTEFACTS)
     extra = {

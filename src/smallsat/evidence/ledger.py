@@ -4,6 +4,7 @@ import csv
 from collections.abc import Iterator
 from pathlib import Path
 
+from smallsat.catalogue import Study
 from smallsat.errors import InputError
 from smallsat.evidence.printed import LOST, looks_numeric, parse_printed
 
@@ -49,6 +50,28 @@ def read_ledger(path: Path) -> list[Row]:
             )
     _unique(path, table, ["id"])
     return table
+
+
+def read_published(published: Path, study: Study) -> tuple[list[Row], list[Row]]:
+    """The values and the artefacts of a study, as many as its ``study.yaml`` says.
+
+    Raises
+    ------
+    InputError
+        Naming the file in which rows are missing or have been added, or what else is wrong.
+    """
+    folder = published / study.name
+    values, artefacts = read_ledger(folder / "values.csv"), read_artefacts(folder / "artefacts.csv")
+    for name, rows, number in (
+        ("values", values, study.values),
+        ("artefacts", artefacts, study.artefacts),
+    ):
+        if len(rows) != number:
+            raise InputError(
+                f"{folder / name}.csv: {len(rows)} rows, but study.yaml says {name}: {number}; "
+                f"restore what is lost, or count what is new there"
+            )
+    return values, artefacts
 
 
 def read_artefacts(path: Path) -> list[Row]:

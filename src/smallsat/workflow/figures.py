@@ -2,11 +2,10 @@
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
-from importlib import import_module
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+from smallsat.catalogue import study_module
 from smallsat.config import Config
 from smallsat.errors import InputError
 from smallsat.strict_yaml import read_yaml
@@ -126,14 +125,13 @@ def drawn(run: NotebookRun, section: Config) -> NotebookRun:
 
     A study whose configuration can leave out any has a module ``figures.selection``.
     """
-    name = f"smallsat.studies.{run.study}.figures.selection"
-    if find_spec(name) is None:
+    module = study_module(run.study, "figures.selection")
+    if module is None:
         return run
-    is_drawn = import_module(name).is_drawn
     figures = {
         figure: what
         for figure, what in run.figures.items()
-        if is_drawn(section, run.notebook, what, run.parameters)
+        if module.is_drawn(section, run.notebook, what, run.parameters)
     }
     return replace(run, figures=figures)
 

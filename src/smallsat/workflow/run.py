@@ -2,10 +2,9 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from importlib import import_module
-from importlib.util import find_spec
 from pathlib import Path
 
+from smallsat.catalogue import study_module
 from smallsat.config import Config, default_config, overlaid_config, run_folder, schema_of
 
 
@@ -63,5 +62,5 @@ def checked(config: Config) -> Config:
 
 def _checked(study: str, section: Config) -> Config:
     """The section after the checks of its study, if this has a module ``parameters``."""
-    name = f"smallsat.studies.{study}.parameters"
-    return section if find_spec(name) is None else import_module(name).check(section)
+    module = study_module(study, "parameters")
+    return section if module is None else module.check(section)
