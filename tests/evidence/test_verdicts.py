@@ -79,7 +79,15 @@ def test_a_tolerance_stricter_than_the_digits_replaces_them():
     """A printed bare 0 or 1 that is exact: half a unit would let 0.4 pass."""
     assert verdict(0.4, printed="0").verdict == "reproduced"
     assert verdict(0.4, printed="0", rule={"tolerance": 1e-12}).verdict == "mismatch"
-    assert verdict(1e-15, printed="0", rule={"tolerance": 1e-12}).verdict == "consistent"
+    assert verdict(1e-4, printed="0", rule={"tolerance": 1e-3}).verdict == "consistent"
+
+
+def test_an_exact_literal_is_reproduced_to_rounding():
+    """What a rule calls exact is the stricter question, and a yes to it no weaker verdict."""
+    outcome = verdict(1e-15, printed="0", rule={"exact": 1e-12})
+    assert (outcome.verdict, outcome.reason) == ("reproduced", "because")
+    assert outcome.tolerance == 1e-12
+    assert verdict(0.4, printed="0", rule={"exact": 1e-12}).verdict == "mismatch"
 
 
 def test_truncated_digits_are_consistent():

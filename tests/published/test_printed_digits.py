@@ -88,6 +88,8 @@ def judged_wrongly(verdicts, kinds, rules):
         computed, rule = Decimal(row["computed"]), rule_of(row["id"], rules)
         if verdict == "reproduced":
             right = equal(literal, computed)
+            if "exact" in rule:
+                right = abs(computed - Decimal(literal)) <= Decimal(str(rule["exact"]))
         elif verdict == "consistent" and "tolerance" in rule:
             exact = EXACT[literal] if literal in EXACT else Decimal(literal)
             right = abs(computed - exact) <= Decimal(str(rule["tolerance"]))

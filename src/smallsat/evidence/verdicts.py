@@ -1,6 +1,7 @@
 """One verdict for each published number, by rules that are fixed before the run they judge."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from math import isnan, nan
 from typing import Any
 
@@ -39,6 +40,7 @@ VERDICT_COLUMNS = (
 )
 TEXT_COLUMNS = ("case", "component", "printed", "unit")
 RULE_KINDS = (
+    "exact",
     "tolerance",
     "truncated",
     "objective",
@@ -50,6 +52,65 @@ RULE_KINDS = (
 
 Row = Mapping[str, str]
 Entry = dict[str, Any]
+Run = Mapping[str, Any]
+Outcome = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Case:
+    """One printed number, and what there is to judge it by.
+
+    Attributes
+    ----------
+    row
+        Its row of the ledger.
+    printed
+        The literal as a number; not a number for a text.
+    runs
+        What was computed for it, one entry a run; the last run is the best one that a study has.
+    rule, binding
+        The entries of ``rules.yaml`` and ``bindings.yaml`` that name it; empty where none does.
+    proof
+        What the proof of its erratum found; empty where it is not listed as one.
+    config
+        The configuration, which the bindings look into.
+    """
+
+    row: Row
+    printed: Printed
+    runs: Sequence[Run]
+    rule: Entry
+    binding: Entry
+    proof: Entry
+    config: Config
+
+    @property
+    def shown(self) -> float:
+        """The value that is shown unless another run decides: the last one."""
+        return self.runs[-1]["computed"] if self.runs else nan
+
+    @property
+    def solved(self) -> list[Run]:
+        """The runs that have a number; a solve that failed is nobody's result."""
+        return [run for run in self.runs if not isnan(run["computed"])]
+
+    def outcome(
+        self, verdict: str, reason: str, computed: float, tolerance: float = nan
+    ) -> Outcome:
+        """The columns that a judge fills, with the difference from the printed number."""
+        return {
+            "verdict": verdict,
+            "reason": reason,
+            "computed": computed,
+            "difference": computed - self.printed.value,
+            "tolerance": tolerance,
+        }
+
+    def decided(self, verdict: str, reason: str, run: Run, tolerance: float = nan) -> Outcome:
+        """The outcome that one run decides, which the reason names."""
+        name = run["run"]
+        named = f"{reason} ({name})" if isinstance(name, str) and name else reason
+        return self.outcome(verdict, named, run["computed"], tolerance)
 
 
 def judge(
@@ -61,7 +122,7 @@ def judge(
     proofs: pd.DataFrame,
     config: Config,
 ) -> pd.DataFrame:
-    """Judge every row of one document.
+    """Judge every row of one document: the first of `JUDGES` that answers decides.
 
     Parameters
     ----------
@@ -95,214 +156,255 @@ def judge(
     binding_of = match_entries(bindings, ids, "bindings.yaml")
     erratum_of = match_entries([e for e in errata if e.get("ids")], ids, "errata.yaml")
     proof_of = {proof["key"]: proof for proof in _records(proofs)}
-    computed_of = {str(key): _records(group) for key, group in observations.groupby("id")}
+    runs_of = {str(key): _records(group) for key, group in observations.groupby("id")}
 
     judged = []
     for row in rows:
         identifier = row["id"]
         erratum = erratum_of.get(identifier)
-        proof = proof_of[erratum["key"]] if erratum else None
-        computed = computed_of.get(identifier, [])
-        rule = rule_of.get(identifier, {})
-        if "pending" in rule:
-            outcome = _judge_pending(identifier, computed, rule)
-        elif row["kind"] == "input":
-            outcome = _judge_input(row, binding_of.get(identifier), proof, config)
-        elif row["kind"] == "timing":
-            outcome = _judge_timing(row, computed, proof)
-        else:
-            outcome = _judge_result(row, computed, rule, proof)
+        case = Case(
+            row=row,
+            printed=_number(row["printed"]),
+            runs=runs_of.get(identifier, []),
+            rule=rule_of.get(identifier, {}),
+            binding=binding_of.get(identifier, {}),
+            proof=proof_of[erratum["key"]] if erratum else {},
+            config=config,
+        )
+        outcome = next(found for ask in JUDGES if (found := ask(case)))
         judged.append({name: row.get(name, "") for name in VERDICT_COLUMNS} | outcome)
     return pd.DataFrame(judged, columns=list(VERDICT_COLUMNS))
+
+
+def _number(literal: str) -> Printed:
+    """A literal as a number; not a number for a text."""
+    return parse_printed(literal) or Printed(nan, nan)
 
 
 def _records(table: pd.DataFrame) -> list[dict[str, Any]]:
     return [{str(name): value for name, value in row.items()} for row in table.to_dict("records")]
 
 
-def _outcome(
-    verdict: str,
-    reason: str,
-    computed: float = nan,
-    printed: Printed | None = None,
-    tolerance: float = nan,
-) -> dict[str, Any]:
-    return {
-        "verdict": verdict,
-        "reason": reason,
-        "computed": computed,
-        "difference": computed - printed.value if printed else nan,
-        "tolerance": tolerance,
-    }
-
-
-def _erratum(proof: Mapping[str, Any], computed: float, printed: Printed | None) -> dict[str, Any]:
-    if not proof["holds"]:
-        reason = f"listed as erratum '{proof['key']}', but its proof does not hold"
-        return _outcome("mismatch", reason, computed, printed)
-    return _outcome("erratum", f"{proof['key']}: {proof['statement']}", computed, printed)
-
-
-def _judge_pending(
-    identifier: str, computed: Sequence[Mapping[str, Any]], rule: Mapping[str, Any]
-) -> dict[str, Any]:
-    if computed:
-        # What is computed must be judged: a pending row cannot hide a wrong value.
+def _pending(case: Case) -> Outcome | None:
+    """Pending: the part of the study is not built. A pending row cannot hide a wrong value."""
+    if "pending" not in case.rule:
+        return None
+    if case.runs:
         reason = "listed as pending, but computed: remove it from the pending rows of rules.yaml"
-        return _outcome("mismatch", reason, computed[-1]["computed"])
-    return _outcome(PENDING, f"{rule['pending']}: {rule['reason']}")
+        return case.outcome("mismatch", reason, case.shown)
+    return case.outcome(PENDING, f"{case.rule['pending']}: {case.rule['reason']}", nan)
 
 
-def _judge_input(
-    row: Row, binding: Entry | None, proof: Mapping[str, Any] | None, config: Config
-) -> dict[str, Any]:
-    if binding is None:
-        return _outcome("mismatch", "no binding: add it to bindings.yaml")
+def _input(case: Case) -> Outcome | None:
+    """An input is reproduced if it equals the value of ours that its binding says it feeds."""
+    if case.row["kind"] != "input":
+        return None
+    binding = case.binding
+    if not binding:
+        return case.outcome("mismatch", "no binding: add it to bindings.yaml", nan)
     if "not_ours" in binding:
-        if proof:
-            return _erratum(proof, nan, None)
-        return _outcome("context", f"not a parameter of ours: {binding['not_ours']}")
-    value = bound_value(row, binding, config)
-    name = binding_name(binding)
-    if row["printed"] == LOST:
-        return _outcome("context", f"lost from the text; {name} is used", value)
-    printed = parse_printed(str(binding.get("reading", row["printed"])))
-    if agrees(row, binding, value):
-        return _outcome("reproduced", f"feeds {name}", value, printed, 0.0)
-    if proof:
-        return _erratum(proof, value, printed)
-    return _outcome("mismatch", f"differs from {name}, which it feeds", value, printed, 0.0)
+        if case.proof:
+            return _proven(case, nan)
+        return case.outcome("context", f"not a parameter of ours: {binding['not_ours']}", nan)
+    value, name = bound_value(case.row, binding, case.config), binding_name(binding)
+    if case.row["printed"] == LOST:
+        return case.outcome("context", f"lost from the text; {name} is used", value)
+    if "reading" in binding:
+        case = replace(case, printed=_number(str(binding["reading"])))
+    if agrees(case.row, binding, value):
+        return case.outcome("reproduced", f"feeds {name}", value, 0.0)
+    if case.proof:
+        return _proven(case, value)
+    return case.outcome("mismatch", f"differs from {name}, which it feeds", value, 0.0)
 
 
-def _judge_timing(
-    row: Row, computed: Sequence[Mapping[str, Any]], proof: Mapping[str, Any] | None
-) -> dict[str, Any]:
-    value = computed[0]["computed"] if computed else nan
-    printed = parse_printed(row["printed"])
-    if proof:
-        return _erratum(proof, value, printed)
-    return _outcome("context", "depends on the machine and the solver: shown, not judged", value)
+def _timing(case: Case) -> Outcome | None:
+    """Seconds are context: they depend on the machine and the solver, so no difference counts."""
+    if case.row["kind"] != "timing":
+        return None
+    value = case.runs[0]["computed"] if case.runs else nan
+    if case.proof:
+        return _proven(case, value)
+    reason = "depends on the machine and the solver: shown, not judged"
+    return case.outcome("context", reason, value) | {"difference": nan}
 
 
-def _judge_result(
-    row: Row,
-    computed: Sequence[Mapping[str, Any]],
-    rule: Mapping[str, Any],
-    proof: Mapping[str, Any] | None,
-) -> dict[str, Any]:
-    # The last run is the best one a study has; it is shown unless another one decides.
-    last = computed[-1] if computed else None
-    value = last["computed"] if last else nan
-    printed = parse_printed(row["printed"])
-    if row["printed"] == LOST:
-        return _outcome("context", "lost from the text: nothing to compare with", value)
-    if "context" in rule:
-        return _outcome("context", rule["reason"], value, printed)
-    if proof:
+def _lost(case: Case) -> Outcome | None:
+    """A literal that the text has lost is context: there is nothing to compare with."""
+    if case.row["printed"] != LOST:
+        return None
+    return case.outcome("context", "lost from the text: nothing to compare with", case.shown)
+
+
+def _context(case: Case) -> Outcome | None:
+    """What a rule calls context is shown and not judged."""
+    if "context" not in case.rule:
+        return None
+    return case.outcome("context", case.rule["reason"], case.shown)
+
+
+def _erratum(case: Case) -> Outcome | None:
+    """An erratum needs a proof that holds, and a printed value that no run reproduces."""
+    if not case.proof:
+        return None
+    value = case.shown
+    if case.runs and not isnan(case.printed.value):
         # Of several runs the one that comes nearest is what the printed value is compared with.
-        if printed and computed:
-            value = min((one["computed"] for one in computed), key=lambda c: abs(c - printed.value))
-        if printed and last and printed.matches(value):
-            reason = f"listed as erratum '{proof['key']}', but the printed value reproduces"
-            return _outcome("mismatch", reason, value, printed, printed.half_unit)
-        return _erratum(proof, value, printed)
-    # A solve that failed is nobody's result: no rule excuses it.
-    note = last["note"] if last and isinstance(last["note"], str) else ""
-    computed = [one for one in computed if not isnan(one["computed"])]
-    if not computed or printed is None:
-        return _outcome("mismatch", note or "no computed value", value, printed)
-
-    half_unit = printed.half_unit
-    if "interval" in rule:
-        return _judge_interval(printed, computed, rule)
-    if "tolerance" not in rule or not _is_stricter(rule["tolerance"], printed):
-        for one in computed:
-            if printed.matches(one["computed"]):
-                return _outcome(
-                    "reproduced",
-                    _with_run("equal to the printed digits", one),
-                    one["computed"],
-                    printed,
-                    half_unit,
-                )
-    if "tolerance" in rule:
-        tolerance = float(rule["tolerance"])
-        for one in computed:
-            if abs(one["computed"] - printed.value) <= tolerance:
-                return _outcome(
-                    "consistent",
-                    _with_run(rule["reason"], one),
-                    one["computed"],
-                    printed,
-                    tolerance,
-                )
-    if "truncated" in rule:
-        for one in computed:
-            if printed.truncates(one["computed"]):
-                return _outcome(
-                    "consistent",
-                    _with_run(rule["reason"], one),
-                    one["computed"],
-                    printed,
-                    2 * half_unit,
-                )
-    if "objective" in rule:
-        sign = {"minimise": 1.0, "maximise": -1.0}[rule["objective"]]
-        better = [
-            one
-            for one in computed
-            if sign * (printed.value - one["computed"]) > half_unit
-            and one["residual"] <= rule["feasible_to"]
-        ]
-        if better:
-            best = min(better, key=lambda one: sign * one["computed"])
-            reason = _with_run(
-                f"{rule['reason']}; constraints met to {best['residual']:.0e} in an independent "
-                f"re-integration (needed: {rule['feasible_to']:.0e})",
-                best,
-            )
-            return _outcome("surpassed", reason, best["computed"], printed, half_unit)
-    if "unreproducible" in rule:
-        reason = f"{rule['reason']}; missing: {rule['unreproducible']}"
-        return _outcome("unreproducible", reason, value, printed, half_unit)
-    return _outcome("mismatch", note or "not explained", value, printed, half_unit)
+        found = (run["computed"] for run in case.runs)
+        value = min(found, key=lambda one: abs(one - case.printed.value))
+        if case.printed.matches(value):
+            reason = f"listed as erratum '{case.proof['key']}', but the printed value reproduces"
+            return case.outcome("mismatch", reason, value, case.printed.half_unit)
+    return _proven(case, value)
 
 
-def _judge_interval(
-    printed: Printed, computed: Sequence[Mapping[str, Any]], rule: Mapping[str, Any]
-) -> dict[str, Any]:
+def _proven(case: Case, value: float) -> Outcome:
+    key = case.proof["key"]
+    if not case.proof["holds"]:
+        return case.outcome(
+            "mismatch", f"listed as erratum '{key}', but its proof does not hold", value
+        )
+    return case.outcome("erratum", f"{key}: {case.proof['statement']}", value)
+
+
+def _not_computed(case: Case) -> Outcome | None:
+    """Without a number of ours, or a printed one, there is a mismatch that no rule excuses."""
+    if case.solved and not isnan(case.printed.value):
+        return None
+    return case.outcome("mismatch", _note(case) or "no computed value", case.shown)
+
+
+def _interval(case: Case) -> Outcome | None:
     """Consistent or unreproducible: agreement with a sample, or under inferred parameters.
 
     Equal digits are no reproduction here: another sample or inference would give others.
     """
-    for one in computed:
-        low, high = _interval(one)
-        if low - printed.half_unit <= printed.value <= high + printed.half_unit:
-            reason = _with_run(f"{rule['reason']}; {_interval_text(one)}", one)
-            return _outcome("consistent", reason, one["computed"], printed)
-    nearest = min(computed, key=lambda one: abs(one["computed"] - printed.value))
-    reason = _with_run(f"{rule['reason']}; {_interval_text(nearest)}", nearest)
-    reason += f"; missing: {rule['interval']}"
-    return _outcome("unreproducible", reason, nearest["computed"], printed)
+    if "interval" not in case.rule:
+        return None
+    printed, half_unit, rule = case.printed.value, case.printed.half_unit, case.rule
+    for run in case.solved:
+        low, high = _ends(run)
+        if low - half_unit <= printed <= high + half_unit:
+            return case.decided("consistent", f"{rule['reason']}; {_interval_text(run)}", run)
+    nearest = min(case.solved, key=lambda run: abs(run["computed"] - printed))
+    found = case.decided("unreproducible", f"{rule['reason']}; {_interval_text(nearest)}", nearest)
+    return found | {"reason": f"{found['reason']}; missing: {rule['interval']}"}
 
 
-def _interval(one: Mapping[str, Any]) -> tuple[float, float]:
-    low, high = (one["computed"] if isnan(one[end]) else one[end] for end in ("low", "high"))
+def _exact(case: Case) -> Outcome | None:
+    """Reproduced: a rule calls the literal exact, a bare 0 for example, and a run meets it.
+
+    Rounding is all that the rule allows; half a printed unit would let 0.4 pass for 0.
+    """
+    if "exact" not in case.rule:
+        return None
+    return _within(case, "exact", "reproduced") or _unexplained(case)
+
+
+def _digits(case: Case) -> Outcome | None:
+    """Reproduced: a run is equal to the printed digits, where no tolerance is stricter."""
+    half_unit = case.printed.half_unit
+    if float(case.rule.get("tolerance", nan)) < half_unit:
+        return None
+    for run in case.solved:
+        if case.printed.matches(run["computed"]):
+            return case.decided("reproduced", "equal to the printed digits", run, half_unit)
+    return None
+
+
+def _tolerance(case: Case) -> Outcome | None:
+    """Consistent: a run is within the tolerance that a rule gives and explains."""
+    return _within(case, "tolerance", "consistent")
+
+
+def _within(case: Case, kind: str, verdict: str) -> Outcome | None:
+    """The verdict if a run is as near to the printed number as the rule's entry of a kind says."""
+    tolerance = float(case.rule.get(kind, nan))
+    for run in case.solved:
+        if abs(run["computed"] - case.printed.value) <= tolerance:
+            return case.decided(verdict, case.rule["reason"], run, tolerance)
+    return None
+
+
+def _truncated(case: Case) -> Outcome | None:
+    """Consistent: the printed digits are those of a run, cut off instead of rounded."""
+    for run in case.solved:
+        if "truncated" in case.rule and case.printed.truncates(run["computed"]):
+            unit = 2 * case.printed.half_unit
+            return case.decided("consistent", case.rule["reason"], run, unit)
+    return None
+
+
+def _surpassed(case: Case) -> Outcome | None:
+    """Surpassed: a run has a better objective and meets its constraints, checked independently."""
+    if "objective" not in case.rule:
+        return None
+    sign = {"minimise": 1.0, "maximise": -1.0}[case.rule["objective"]]
+    printed, feasible_to = case.printed, case.rule["feasible_to"]
+    better = [
+        run
+        for run in case.solved
+        if sign * (printed.value - run["computed"]) > printed.half_unit
+        and run["residual"] <= feasible_to
+    ]
+    if not better:
+        return None
+    best = min(better, key=lambda run: sign * run["computed"])
+    reason = (
+        f"{case.rule['reason']}; constraints met to {best['residual']:.0e} in an independent "
+        f"re-integration (needed: {feasible_to:.0e})"
+    )
+    return case.decided("surpassed", reason, best, printed.half_unit)
+
+
+def _unreproducible(case: Case) -> Outcome | None:
+    """Unreproducible: a rule names what the document would have to say and does not."""
+    if "unreproducible" not in case.rule:
+        return None
+    reason = f"{case.rule['reason']}; missing: {case.rule['unreproducible']}"
+    return case.outcome("unreproducible", reason, case.shown, case.printed.half_unit)
+
+
+def _unexplained(case: Case) -> Outcome:
+    """What nothing explains is a mismatch."""
+    reason = _note(case) or "not explained"
+    return case.outcome("mismatch", reason, case.shown, case.printed.half_unit)
+
+
+# In the order in which they are asked.
+JUDGES: tuple[Callable[[Case], Outcome | None], ...] = (
+    _pending,
+    _input,
+    _timing,
+    _lost,
+    _context,
+    _erratum,
+    _not_computed,
+    _interval,
+    _exact,
+    _digits,
+    _tolerance,
+    _truncated,
+    _surpassed,
+    _unreproducible,
+    _unexplained,
+)
+
+
+def _note(case: Case) -> str:
+    """What the last run says of itself, such as a solver that did not converge."""
+    note = case.runs[-1]["note"] if case.runs else ""
+    return note if isinstance(note, str) else ""
+
+
+def _ends(run: Run) -> tuple[float, float]:
+    """Ends of the interval of a run; its value where it has none."""
+    low, high = (run["computed"] if isnan(run[end]) else run[end] for end in ("low", "high"))
     return low, high
 
 
-def _interval_text(one: Mapping[str, Any]) -> str:
-    low, high = _interval(one)
+def _interval_text(run: Run) -> str:
+    low, high = _ends(run)
     if low == high:
         return "compared to the printed digits"
     return f"interval {low:.4g} to {high:.4g}"
-
-
-def _is_stricter(tolerance: float, printed: Printed) -> bool:
-    """A tolerance below half a printed unit replaces the digits: an exact 0 or 1, for example."""
-    return float(tolerance) < printed.half_unit
-
-
-def _with_run(reason: str, observation: Mapping[str, Any]) -> str:
-    run = observation["run"]
-    return f"{reason} ({run})" if isinstance(run, str) and run else reason
