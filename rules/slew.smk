@@ -1,7 +1,7 @@
 # Slew: torque-optimal turns of a CubeSat with degraded reaction wheels.
 
 step("slew", "flights", makes=["flights.parquet", "orbit.csv", "environment.csv"])
-step("slew", "search", makes=["controllers.csv"])
+step("slew", "search", makes=["controllers.csv"], published=["values.csv"])
 step(
     "slew",
     "minimum_times",

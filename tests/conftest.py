@@ -5,6 +5,8 @@ from pathlib import Path
 import pytest
 
 from smallsat.config import default_config
+from smallsat.evidence.grounds import Grounds
+from smallsat.evidence.ledger import Ledger, read_artefacts, read_ledger
 from smallsat.workflow.isolation import isolate
 
 ROOT = Path(__file__).parents[1]
@@ -20,6 +22,32 @@ def root() -> Path:
 @pytest.fixture(scope="session")
 def config() -> dict:
     return default_config(ROOT)
+
+
+@pytest.fixture(scope="session")
+def ledger(root):
+    """The ledger of a study, with other literals at some ids."""
+
+    def of(study: str, printed: dict[str, str] | None = None) -> Ledger:
+        rows = read_ledger(root / f"data/published/{study}/values.csv")
+        changed = {f"{study}/{name}": literal for name, literal in (printed or {}).items()}
+        assert changed.keys() <= {row["id"] for row in rows}
+        new = [row | {"printed": changed.get(row["id"], row["printed"])} for row in rows]
+        return Ledger(new, study)
+
+    return of
+
+
+@pytest.fixture(scope="session")
+def grounds(root, ledger):
+    """The grounds of a study for a configuration and results, with other literals at some ids."""
+
+    def of(study: str, config: dict, results: Path, printed: dict[str, str] | None = None):
+        artefacts = read_artefacts(root / f"data/published/{study}/artefacts.csv")
+        captions = {row["id"]: row["caption"] for row in artefacts}
+        return Grounds(config, results, ledger(study, printed), captions)
+
+    return of
 
 
 @pytest.fixture(scope="session")

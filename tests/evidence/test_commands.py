@@ -12,7 +12,8 @@ import yaml
 from smallsat.errors import InputError
 from smallsat.evidence.claims import judge_claims, judged
 from smallsat.evidence.errata import Proof, prove_errata
-from smallsat.evidence.ledger import VALUE_COLUMNS
+from smallsat.evidence.grounds import Grounds
+from smallsat.evidence.ledger import ARTEFACT_COLUMNS, VALUE_COLUMNS, Ledger
 from smallsat.evidence.observation import Observation, observations_table
 from smallsat.evidence.summary import failures, value_kinds, verdict_counts
 from smallsat.results import read_table, write_table
@@ -26,36 +27,81 @@ def importable(monkeypatch):
     monkeypatch.setitem(sys.modules, HERE, sys.modules[__name__])
 
 
-def proof_of_sign(config, results: Path) -> Proof:
-    return Proof(config["sign"] < 0, "1", "-1", f"the sign is {config['sign']}")
+def proof_of_sign(grounds: Grounds) -> Proof:
+    sign = grounds.config["sign"]
+    correct = grounds.config.get("correct", "")
+    return Proof(sign < 0, "1", "-1", f"the sign is {sign}", correct)
 
 
-def sign_is_negative(config, results: Path):
-    return judged(config["sign"] < 0, f"sign {config['sign']}")
+def sign_is_negative(grounds: Grounds):
+    return judged(grounds.config["sign"] < 0, f"sign {grounds.config['sign']}")
+
+
+def given(**config) -> Grounds:
+    return Grounds(config, Path("nowhere"), Ledger([], "transfer"), {})
 
 
 @pytest.mark.parametrize(("sign", "holds"), [(-1, True), (1, False)])
-def test_an_erratum_holds_if_its_proof_does(sign, holds, tmp_path):
+def test_an_erratum_holds_if_its_proof_does(sign, holds):
     entry = {"key": "sign", "locator": "Eq. 1", "printed": "+", "correct": "-"}
     entries = [entry | {"proof": f"{HERE}:proof_of_sign"}]
-    (row,) = prove_errata(entries, {"sign": sign}, tmp_path, "errata.yaml").itertuples()
+    (row,) = prove_errata(entries, given(sign=sign), "errata.yaml").itertuples()
     assert row.holds is holds
     assert (row.key, row.explanation, row.as_corrected) == ("sign", "", "-1")
 
 
+@pytest.mark.parametrize(
+    ("entry", "computed", "holds", "shown"),
+    [
+        ({"correct": "-0.433"}, -0.43301, True, "-0.433"),
+        ({"correct": "-0.443"}, -0.43301, False, "-0.443"),
+        ({"correct": "+0.4698"}, 0.46984, True, "+0.4698"),
+        ({"correct": "36.7 %"}, 36.747, True, "36.7 %"),
+        ({"correct": "36.8 %"}, 36.747, False, "36.8 %"),
+        ({"correct": "v_e = 1.8658344"}, 1.8658344, True, "v_e = 1.8658344"),
+        (
+            {"correct": "0.026 % at K = 2, from Table 4"},
+            0.0262,
+            True,
+            "0.026 % at K = 2, from Table 4",
+        ),
+        ({"correct": -0.001533}, -0.0015331, True, -0.001533),
+        ({"correct": "(1/36)/5"}, 1 / 180, True, "(1/36)/5"),
+        ({"correct": "(1/36)/5"}, 1 / 181, False, "(1/36)/5"),
+        # Words are the proof's where the entry has none, and the entry's where the proof has none.
+        ({}, "N = 4", True, "N = 4"),
+        ({"correct": "u' R u"}, "", True, "u' R u"),
+    ],
+)
+def test_a_correction_must_be_what_the_proof_computes(entry, computed, holds, shown):
+    """A number to its own digits; where it is another, the erratum does not hold and says so."""
+    entry = {"key": "sign", "locator": "Eq. 1", "printed": "+", **entry}
+    entries = [entry | {"proof": f"{HERE}:proof_of_sign"}]
+    found = prove_errata(entries, given(sign=-1, correct=computed), "errata.yaml")
+    (row,) = found.itertuples()
+    assert (row.holds, row.correct) == (holds, shown)
+    assert ("is not what the proof computes" in row.statement) is not holds
+
+
+def test_a_correction_without_its_number_is_named():
+    entries = [{"key": "sign", "correct": "another", "proof": f"{HERE}:proof_of_sign"}]
+    with pytest.raises(InputError, match="'sign': 'correct' is 'another'; needed: the number"):
+        prove_errata(entries, given(sign=-1, correct=2.0), "errata.yaml")
+
+
 @pytest.mark.parametrize(("sign", "outcome"), [(-1, "holds"), (1, "fails")])
-def test_a_claim_is_judged_by_its_predicate(sign, outcome, tmp_path):
+def test_a_claim_is_judged_by_its_predicate(sign, outcome):
     entries = [
         {"id": "c", "locator": "Eq. 1", "claim": "down", "predicate": f"{HERE}:sign_is_negative"}
     ]
-    (row,) = judge_claims(entries, {"sign": sign}, tmp_path, "claims.yaml").itertuples()
+    (row,) = judge_claims(entries, given(sign=sign), "claims.yaml").itertuples()
     assert (row.outcome, row.evidence) == (outcome, f"sign {sign}")
 
 
 @pytest.mark.parametrize("name", [f"{HERE}:no_such", "no.such.module:f", "no colon"])
-def test_a_proof_that_does_not_exist_is_named(name, tmp_path):
+def test_a_proof_that_does_not_exist_is_named(name):
     with pytest.raises(InputError, match=r"errata.yaml: '.*' does not exist"):
-        prove_errata([{"key": "k", "proof": name}], {}, tmp_path, "errata.yaml")
+        prove_errata([{"key": "k", "proof": name}], given(), "errata.yaml")
 
 
 LEDGER = """\
@@ -74,6 +120,7 @@ def published(tmp_path):
     (folder / "transfer/study.yaml").write_text(
         "{order: 1, title: A paper, subject: Transfers, values: 4, artefacts: 3}"
     )
+    (folder / "transfer/artefacts.csv").write_text(",".join(ARTEFACT_COLUMNS) + "\n")
     entries = {
         "rules": [],
         "errata": [],

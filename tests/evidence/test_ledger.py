@@ -11,6 +11,7 @@ from smallsat.errors import InputError
 from smallsat.evidence.ledger import (
     ARTEFACT_COLUMNS,
     VALUE_COLUMNS,
+    Ledger,
     read_artefacts,
     read_ledger,
     read_published,
@@ -105,3 +106,35 @@ def test_artefacts_may_have_no_target_yet_but_occur_once(tmp_path):
     path.write_text(f"{header}\n{ARTEFACT.replace('table,', 'poem,')}\n")
     with pytest.raises(InputError, match="'kind' is 'poem'; allowed: table, figure, animation"):
         read_artefacts(path)
+
+
+PLACES = {"mars/r/x": "-669.3", "mars/r/y": "3227.5", "mars/r/z/min": "1", "mars/name": "Eeny"}
+
+
+@pytest.fixture
+def places():
+    rows = [{"id": name, "document": "mars", "printed": text} for name, text in PLACES.items()]
+    return Ledger(rows, "mars")
+
+
+def test_a_ledger_is_asked_by_ids_of_its_document(places):
+    """Numbers with their digits, text, and the components of a place in their order."""
+    assert places.value("r/x").value == -669.3
+    assert places.value("r/x").half_unit == pytest.approx(0.05)
+    assert places.literal("name") == "Eeny"
+    assert [float(one) for one in places.values("r")] == [-669.3, 3227.5]
+    assert len(places.rows) == 4
+
+
+@pytest.mark.parametrize(
+    ("ask", "message"),
+    [
+        (lambda ledger: ledger.value("r/q"), "no id 'mars/r/q'"),
+        (lambda ledger: ledger.literal("slew/r/x"), "no id 'mars/slew/r/x'"),
+        (lambda ledger: ledger.values("v"), "no id 'mars/v/...'"),
+        (lambda ledger: ledger.value("name"), "'mars/name': 'Eeny' is no number"),
+    ],
+)
+def test_what_a_ledger_does_not_have_is_named(places, ask, message):
+    with pytest.raises(InputError, match=message):
+        ask(places)

@@ -40,14 +40,14 @@ def test_the_row_names_run_time_and_method(results):
     assert lost[lost].index.tolist() == ["fixed torque"]
 
 
-def test_what_needs_the_run_is_not_decided(short, results):
+def test_what_needs_the_run_is_not_decided(short, results, grounds):
     """Claims and proofs say that a case is missing; they do not judge what is none."""
-    config = {"mars": short}
+    given = grounds("mars", {"mars": short}, results)
     for predicate in (claims.rates_oscillate_about_zero, claims.step_leaves_artefacts):
         with pytest.raises(LookupError, match="overflowed"):
-            predicate(config, results)
+            predicate(given)
     with pytest.raises(LookupError, match="overflowed"):
-        errata.second_rate_panel(config, results)
+        errata.second_rate_panel(given)
 
 
 def test_its_figure_says_so(results):

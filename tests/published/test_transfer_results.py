@@ -6,7 +6,7 @@ from itertools import product
 import pandas as pd
 import pytest
 
-from smallsat.studies.transfer.evidence.printed import printed_cases
+from smallsat.studies.transfer.evidence.printed_cases import printed_cases
 
 # Best known final times of direct multiple shooting with free polynomials, to six decimals: the
 # figures an independent computation found for the same problem. Ours must match or beat them.
@@ -56,15 +56,15 @@ def test_nothing_beats_the_extremal(results):
         assert (results[run]["final_time"] > bound).all()
 
 
-def test_single_polynomials_beat_the_printed_local_minima(results):
+def test_single_polynomials_beat_the_printed_local_minima(results, ledger):
     """From degree 3 on, the best of many starts is shorter than what Table 3 prints."""
     best = results["multistart"].set_index("degree")["final_time"]
-    printed = printed_cases("Table 3")["terminal time"]
+    printed = printed_cases(ledger("transfer"), "Table 3")["terminal time"]
     for degree in (3, 4, 5, 6):
         assert best[degree] < printed["direct", degree, 1] - 1e-3
 
 
-def test_early_stopping_is_counted_right(tested_run, config):
+def test_early_stopping_is_counted_right(tested_run, config, ledger):
     """The experiment behind the inference: every case and tolerance, and both columns of hits.
 
     How many iterates hit a printed value hangs on the last bits of a solver, so that no number is
@@ -78,7 +78,7 @@ def test_early_stopping_is_counted_right(tested_run, config):
     cases = product(study["degrees"], study["intervals"], tolerances)
     found = table[["degree", "intervals", "tolerance"]].itertuples(index=False, name=None)
     assert sorted(found) == sorted(cases)
-    printed = printed_cases("Table 4")["terminal time"]
+    printed = printed_cases(ledger("transfer"), "Table 4")["terminal time"]
     band = printed.min() - 5e-6, printed.max() + 5e-6
     for row in table.itertuples():
         time = Decimal(row.final_time)

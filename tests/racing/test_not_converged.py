@@ -13,7 +13,7 @@ from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
 from smallsat.results import write_table
 from smallsat.studies.racing.evidence import claims
 from smallsat.studies.racing.evidence.observations import observations
-from smallsat.studies.racing.evidence.scores import missed_table, score_table
+from smallsat.studies.racing.evidence.scores import missed_table, printed_scores, score_table
 from smallsat.studies.racing.figures import plots
 from smallsat.studies.racing.methods import attempts, checks
 from smallsat.studies.racing.methods.course_program import CourseProgram
@@ -162,14 +162,15 @@ def test_a_race_without_a_solution_is_a_row(weak):
     assert len(listed) == 4
 
 
-def test_observations_and_scores_of_a_missing_race(weak):
+def test_observations_and_scores_of_a_missing_race(weak, ledger):
     """Not a number, and said why; no place among the others."""
     found = [
         one for one in observations(weak.frames()["races"]) if one.id.endswith("scenario-1-eeny")
     ]
     assert found
     assert all(np.isnan(one.computed) and one.note.startswith("not converged") for one in found)
-    scores = score_table(weak.frames()["races"]).set_index(["cubesat", "solution"])
+    printed = printed_scores(ledger("racing"))
+    scores = score_table(weak.frames()["races"], printed).set_index(["cubesat", "solution"])
     assert pd.isna(scores.loc[("Eeny", WHOLE), "place"])
     assert scores.loc[("Meeny", WHOLE), "place"] == 1
     assert set(missed_table(weak.frames()["rings"])["cubesat"]) == {"Meeny"}
@@ -186,9 +187,10 @@ def test_a_missing_race_is_drawn_as_missing(weak, short):
     plt.close("all")
 
 
-def test_claims_wait_for_a_missing_race(weak, tmp_path, config):
+def test_claims_wait_for_a_missing_race(weak, tmp_path, config, grounds):
     """They need all CubeSats, and raise what makes a claim undecided."""
     write_table(weak.frames()["races"], tmp_path / "races.csv")
+    given = grounds("racing", config, tmp_path)
     for claim in (claims.mo_slower_than_meeny, claims.whole_course_remedies, claims.not_smooth):
         with pytest.raises(LookupError):
-            claim(config, tmp_path)
+            claim(given)

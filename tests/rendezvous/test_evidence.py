@@ -36,6 +36,12 @@ def made_up(section, depth=0.0):
 
 
 @pytest.fixture(scope="module")
+def on(grounds):
+    """The grounds for a section of the configuration and results."""
+    return lambda section, results: grounds("rendezvous", {"rendezvous": section}, results)
+
+
+@pytest.fixture(scope="module")
 def results(tmp_path_factory, section):
     folder = tmp_path_factory.mktemp("results")
     made_up(section).to_parquet(folder / "flights.parquet")
@@ -58,9 +64,9 @@ PROOFS = [
 
 
 @pytest.mark.parametrize("name", PROOFS)
-def test_proof_holds(section, results, name):
+def test_proof_holds(section, results, name, on):
     """Each erratum is proven with the document's own configuration."""
-    proof = getattr(errata, name)({"rendezvous": section}, results)
+    proof = getattr(errata, name)(on(section, results))
     assert proof.holds, proof.statement
 
 
@@ -81,52 +87,53 @@ def test_proof_holds(section, results, name):
         ("last_state_twice", ("phases", "final", "horizon"), 4000),
     ],
 )
-def test_proof_fails_where_the_document_would_be_right(section, results, name, key, value):
+def test_proof_fails_where_the_document_would_be_right(section, results, name, key, value, on):
     """A configuration in which the printed version is as good: the proof must not hold."""
     changed = copy.deepcopy(section)
     entry = changed
     for part in key[:-1]:
         entry = entry[part]
     entry[key[-1]] = value
-    assert not getattr(errata, name)({"rendezvous": changed}, results).holds
+    assert not getattr(errata, name)(on(changed, results)).holds
 
 
-def test_the_end_of_the_far_range_would_hold_inside_the_zone(section, tmp_path):
+def test_the_end_of_the_far_range_would_hold_inside_the_zone(section, tmp_path, on):
     """With samples inside the zone the printed end could come."""
     made_up(section, depth=60.0).to_parquet(tmp_path / "flights.parquet")
-    assert not errata.rendezvous_end_distance({"rendezvous": section}, tmp_path).holds
+    assert not errata.rendezvous_end_distance(on(section, tmp_path)).holds
 
 
-def test_the_end_of_the_mid_range_needs_a_sample_that_is_far(section, tmp_path):
+def test_the_end_of_the_mid_range_needs_a_sample_that_is_far(section, tmp_path, on):
     """A flight that is within r2 all the time shows nothing."""
     near = made_up(section)
     near[STATE[:3]] = 0.0
     near.to_parquet(tmp_path / "flights.parquet")
     start = copy.deepcopy(section)
     start["start"]["position_m"] = [0.0, -1.0, 0.0]
-    assert not errata.approach_end_vector({"rendezvous": start}, tmp_path).holds
+    assert not errata.approach_end_vector(on(start, tmp_path)).holds
 
 
-def test_the_mid_range_must_come_by_the_octant(section, tmp_path):
+def test_the_mid_range_must_come_by_the_octant(section, tmp_path, on):
     """Flown beside the axis by more than r2, the mirrored flight meets the condition nowhere."""
     beside = made_up(section)
     beside["z_m"] = -3.0 * law(section, "v-bar").overshoot
     beside.to_parquet(tmp_path / "flights.parquet")
-    assert not errata.approach_end_vector({"rendezvous": section}, tmp_path).holds
+    assert not errata.approach_end_vector(on(section, tmp_path)).holds
 
 
-def test_the_cone_must_be_entered(section, tmp_path):
+def test_the_cone_must_be_entered(section, tmp_path, on):
     """With a mid range that begins outside the cone the corrected condition ends nothing."""
     outside = made_up(section)
     outside["x_m"] = outside["y_m"]
     outside.to_parquet(tmp_path / "flights.parquet")
-    assert not errata.rendezvous_end_cone({"rendezvous": section}, tmp_path).holds
+    assert not errata.rendezvous_end_cone(on(section, tmp_path)).holds
 
 
-def test_a_quadratic_form_printed_would_be_no_erratum(section, monkeypatch):
+def test_a_quadratic_form_printed_would_be_no_erratum(section, monkeypatch, on):
     """With u' R u printed the proof does not hold."""
     monkeypatch.setattr(errata, "printed_stage_cost", lambda u, weight: float(u @ (weight * u)))
-    assert not errata.quadratic_stage_cost({"rendezvous": section}, Path("nowhere")).holds
+    given = on(section, Path("nowhere"))
+    assert not errata.quadratic_stage_cost(given).holds
 
 
 def ensemble(folder, **totals):
@@ -153,32 +160,32 @@ def ensemble(folder, **totals):
         ([(0, 0.0), (0, 0.0)], "undecided"),
     ],
 )
-def test_a_claim_needs_all_acceptable_sets(section, tmp_path, second, outcome):
+def test_a_claim_needs_all_acceptable_sets(section, tmp_path, second, outcome, on):
     """Case 2 takes less than Case 1: in all sets, in none, in some, or in no set that docks."""
     ensemble(tmp_path, v_bar=[(1744, 13.3), (1750, 13.4)], r_bar=second)
-    judged = claims.r_bar_takes_less({"rendezvous": section}, tmp_path)
+    judged = claims.r_bar_takes_less(on(section, tmp_path))
     assert judged.outcome == outcome, judged.evidence
 
 
-def test_claims_that_need_no_flight(section, tmp_path):
+def test_claims_that_need_no_flight(section, tmp_path, on):
     """Arithmetic of the printed tables, and the count of thrusters."""
-    config = {"rendezvous": section}
-    assert claims.totals_add_up(config, tmp_path).outcome == "holds"
-    assert claims.times_are_whole_samples(config, tmp_path).outcome == "holds"
-    assert claims.velocity_is_of_a_stable_ellipse(config, tmp_path).outcome == "holds"
-    assert claims.six_thrusters_move_in_six_degrees(config, tmp_path).outcome == "fails"
+    given = on(section, tmp_path)
+    assert claims.totals_add_up(given).outcome == "holds"
+    assert claims.times_are_whole_samples(given).outcome == "holds"
+    assert claims.velocity_is_of_a_stable_ellipse(given).outcome == "holds"
+    assert claims.six_thrusters_move_in_six_degrees(given).outcome == "fails"
 
 
-def test_the_same_claims_can_come_out_otherwise(section, tmp_path):
+def test_the_same_claims_can_come_out_otherwise(section, tmp_path, on):
     """Other samples, another velocity, eight thrusters."""
     changed = copy.deepcopy(section)
     changed["phases"]["mid"]["sample_time_s"] = 30.0
     changed["start"]["velocity_m_s"] = [-0.90, -0.42, 0.0]
     changed["spacecraft"]["thrusters"] = 12
-    config = {"rendezvous": changed}
-    assert claims.times_are_whole_samples(config, tmp_path).outcome == "fails"
-    assert claims.velocity_is_of_a_stable_ellipse(config, tmp_path).outcome == "fails"
-    assert claims.six_thrusters_move_in_six_degrees(config, tmp_path).outcome == "holds"
+    given = on(changed, tmp_path)
+    assert claims.times_are_whole_samples(given).outcome == "fails"
+    assert claims.velocity_is_of_a_stable_ellipse(given).outcome == "fails"
+    assert claims.six_thrusters_move_in_six_degrees(given).outcome == "holds"
 
 
 def test_the_law_reads_the_inferred_values(section):

@@ -59,9 +59,9 @@ def test_sums_are_ordered_and_turned_axes_keep_lengths():
     assert summed(quarter, "1-norm") == pytest.approx(np.sqrt(2.0))
 
 
-def test_printed_steps(section):
+def test_printed_steps(section, ledger):
     """Whole steps of the nine phases."""
-    steps = printed_steps(section)
+    steps = printed_steps(section, ledger("rendezvous"))
     assert [steps[case, "far"] for case in ("v-bar", "r-bar", "rotating")] == [39, 33, 31]
     assert [steps[case, "mid"] for case in ("v-bar", "r-bar", "rotating")] == [13, 14, 18]
     assert [steps[case, "final"] for case in ("v-bar", "r-bar", "rotating")] == [63, 62, 56]
@@ -75,10 +75,10 @@ def test_a_crossing_lies_in_the_last_step(flown):
     assert (ended["crossing"] > ended["steps"] - 1).all()
 
 
-def test_residuals_are_zero_where_the_printed_values_are_put_in(section, flown):
+def test_residuals_are_zero_where_the_printed_values_are_put_in(section, flown, ledger):
     """A made-up flight with the printed steps and delta-v misses nothing."""
     perfect = flown.copy()
-    for row in residuals(section, flown).to_dict("records"):
+    for row in residuals(section, flown, ledger("rendezvous")).to_dict("records"):
         case, phase, kind = ["", *row["cell"].split(" ")][-3:]
         own = (perfect["case"] == case) & (perfect["phase"] == phase)
         if kind == "steps":
@@ -86,24 +86,24 @@ def test_residuals_are_zero_where_the_printed_values_are_put_in(section, flown):
         elif own.any():
             perfect.loc[own, list(READINGS)] = row["printed"]
     perfect = perfect[perfect["case"] != "no-set-point"]
-    assert misfits(section, perfect).to_numpy() == pytest.approx(0.0)
+    assert misfits(section, perfect, ledger("rendezvous")).to_numpy() == pytest.approx(0.0)
     late = perfect.assign(crossing=perfect["crossing"] + 1.5)
     # One step beyond the last printed one, in each of nine phases.
-    assert misfits(section, late)["2-norm"].iloc[0] == pytest.approx(9.0)
+    assert misfits(section, late, ledger("rendezvous"))["2-norm"].iloc[0] == pytest.approx(9.0)
 
 
-def test_a_manoeuvre_that_does_not_end_is_a_bounded_miss(section, flown):
+def test_a_manoeuvre_that_does_not_end_is_a_bounded_miss(section, flown, ledger):
     """It counts as the worst residual in both of its cells, and as nothing worse."""
     lost = flown.copy()
     lost.loc[(lost["case"] == "v-bar") & (lost["phase"] == "final"), "ended"] = False
-    table = residuals(section, lost)
+    table = residuals(section, lost, ledger("rendezvous"))
     own = table[table["cell"].str.startswith("v-bar final")]
     assert own[[f"residual {reading}" for reading in READINGS]].to_numpy() == pytest.approx(10.0)
 
 
-def test_the_configured_set_beats_the_first_look(section, flown):
+def test_the_configured_set_beats_the_first_look(section, flown, ledger):
     """Every cell of the far and mid ranges within two steps and a tenth of delta-v."""
-    table = residuals(section, flown)
+    table = residuals(section, flown, ledger("rendezvous"))
     reading = section["inferred"]["readings"]["delta_v"]
     near = table[table["cell"].str.contains("far|mid")]
     steps = near["cell"].str.endswith("steps")
@@ -120,15 +120,17 @@ def small(section):
     return changed
 
 
-def test_a_search_can_be_repeated_and_stays_within_its_bounds(small):
+def test_a_search_can_be_repeated_and_stays_within_its_bounds(small, ledger):
     """Seeded: the same table twice; the configured set is among those evaluated."""
     side = small["inferred"]["readings"]["r_bar"]
-    first, second = search(small, side), search(small, side)
+    first, second = (search(small, side, ledger("rendezvous")) for _ in range(2))
     pd.testing.assert_frame_equal(first, second)
     for name in parameter_names(small):
         low, high = small["inference"]["bounds"][name]
         assert first[name].between(low - 1e-9, high + 1e-9).all()
-    own = misfits(small, fly_sets([small]))[small["inferred"]["readings"]["delta_v"]].iloc[0]
+    own = misfits(small, fly_sets([small]), ledger("rendezvous"))[
+        small["inferred"]["readings"]["delta_v"]
+    ].iloc[0]
     assert first["misfit"].min() <= own * (1 + 1e-6)
 
 

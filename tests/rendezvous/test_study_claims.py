@@ -22,12 +22,18 @@ APPROACH = ([5, 15, 30], [5.0, 10.0, 15.0, 20.0, 25.0, 30.0])
 DOCKING = ([5, 12, 30], [1.0, 3.0, 5.0, 10.0])
 
 
-def judge(root, config, folder, names):
+@pytest.fixture
+def judge(root, grounds):
+    """Outcomes of the claims with these names."""
     entries = read_yaml(root / "data/published/rendezvous/claims.yaml")
-    chosen = [entry for entry in entries if entry["id"] in names]
-    assert {entry["id"] for entry in chosen} == set(names)
-    found = judge_claims(chosen, config, folder, "claims.yaml")
-    return dict(zip(found["id"], found["outcome"], strict=True))
+
+    def outcomes(config, folder, names):
+        chosen = [entry for entry in entries if entry["id"] in names]
+        assert {entry["id"] for entry in chosen} == set(names)
+        found = judge_claims(chosen, grounds("rendezvous", config, folder), "claims.yaml")
+        return dict(zip(found["id"], found["outcome"], strict=True))
+
+    return outcomes
 
 
 def write(folder, **tables):
@@ -79,7 +85,7 @@ EXPECTED = {
 
 
 @pytest.mark.parametrize("world", [0, 1, 2], ids=["as said", "reversed", "no effect"])
-def test_sweep_claims_find_the_effect_that_is_there(root, config, tmp_path, world):
+def test_sweep_claims_find_the_effect_that_is_there(judge, config, tmp_path, world):
     """120 initial states with a scatter of 30 % among them and of 2 % from case to case."""
     laws = (AS_SAID, REVERSED, NOTHING)[world]
     tables = {
@@ -90,14 +96,14 @@ def test_sweep_claims_find_the_effect_that_is_there(root, config, tmp_path, worl
     }  # fmt: skip
     states = synthetic.states(COUNT)
     write(tmp_path, domain=synthetic.domain(states), initial_states=states, **tables)
-    found = judge(root, config, tmp_path, EXPECTED)
+    found = judge(config, tmp_path, EXPECTED)
     expected = {name: outcomes[world] for name, outcomes in EXPECTED.items() if outcomes[world]}
     assert {name: found[name] for name in expected} == expected
 
 
 @pytest.mark.parametrize("times", [2, 3, 5])
 @pytest.mark.parametrize("horizons", [1, 2, 4])
-def test_sweep_claims_wait_where_a_run_has_other_lists(root, config, tmp_path, horizons, times):
+def test_sweep_claims_wait_where_a_run_has_other_lists(judge, config, tmp_path, horizons, times):
     """A claim that names places of the document's lists is undecided; none stops the judge."""
     tables, config = {}, deepcopy(config)
     for phase in ("rendezvous", "approach", "docking"):
@@ -106,7 +112,7 @@ def test_sweep_claims_wait_where_a_run_has_other_lists(root, config, tmp_path, h
         tables[f"{phase}_sweep"] = synthetic.sweep(phase, *grid, COUNT, *AS_SAID[phase])
     states = synthetic.states(COUNT)
     write(tmp_path, domain=synthetic.domain(states), initial_states=states, **tables)
-    found = judge(root, config, tmp_path, EXPECTED)
+    found = judge(config, tmp_path, EXPECTED)
     assert set(found) == set(EXPECTED)
     if horizons != 3:
         assert found["n1-30-45"] == found["n2-15-30"] == "undecided"
@@ -116,7 +122,7 @@ def test_sweep_claims_wait_where_a_run_has_other_lists(root, config, tmp_path, h
         assert found["docking-recommended"] == "undecided"
 
 
-def test_claims_of_manoeuvres_that_never_dock(root, config, tmp_path):
+def test_claims_of_manoeuvres_that_never_dock(judge, config, tmp_path):
     """Nothing completes, so nothing is decided, and nothing stops the judge."""
     states = synthetic.states(COUNT)
     tables = {
@@ -129,22 +135,22 @@ def test_claims_of_manoeuvres_that_never_dock(root, config, tmp_path):
     }  # fmt: skip
     domain = synthetic.domain(states).assign(completed=False)
     write(tmp_path, domain=domain, initial_states=states, **tables)
-    found = judge(root, config, tmp_path, {**EXPECTED, "behind-longer": (), "quadrant-alone": ()})
+    found = judge(config, tmp_path, {**EXPECTED, "behind-longer": (), "quadrant-alone": ()})
     assert set(found.values()) == {"undecided"}
 
 
-def test_domain_claims(root, config, tmp_path):
+def test_domain_claims(judge, config, tmp_path):
     """Manoeuvres made to cost more from behind and from afar; then a shuffled quadrant."""
     names = ["behind-longer", "behind-minimum", "distance-minimum", "quadrant-alone"]
     states = synthetic.states(400)
     write(tmp_path, domain=synthetic.domain(states), initial_states=states)
-    assert judge(root, config, tmp_path, names) == dict.fromkeys(names, "holds")
+    assert judge(config, tmp_path, names) == dict.fromkeys(names, "holds")
     mirrored = states.assign(
         quadrant=(5 - states["quadrant"]).astype("int8"),
         distance_m=2700.0 - states["distance_m"],
     )
     write(tmp_path, initial_states=mirrored)
-    found = judge(root, config, tmp_path, names)
+    found = judge(config, tmp_path, names)
     assert found["behind-longer"] == found["distance-minimum"] == "fails"
 
 
@@ -172,7 +178,7 @@ def disturbed(case, runs, docking_time, docking_delta_v, completed=1.0):
         ((330.0, 0.25), (1500.0, 4.0), 0.5, (None, "fails", "fails", "fails")),
     ],
 )
-def test_robustness_claims(root, config, tmp_path, noisy, filtered, share, outcomes):
+def test_robustness_claims(judge, config, tmp_path, noisy, filtered, share, outcomes):
     """A chaser that bounces and a filter that helps; then one that does not, and one that hurts."""
     rows = [
         disturbed(UNDISTURBED, 1, 300.0, 0.2),
@@ -181,12 +187,12 @@ def test_robustness_claims(root, config, tmp_path, noisy, filtered, share, outco
     ]
     write(tmp_path, robustness=synthetic.pd.concat(rows, ignore_index=True))
     names = ("increase-docking", "bounce", "robust", "filter")
-    found = judge(root, config, tmp_path, names)
+    found = judge(config, tmp_path, names)
     for name, outcome in zip(names, outcomes, strict=True):
         assert outcome is None or found[name] == outcome, name
 
 
-def test_failures_at_rest_on_the_sphere_are_told_from_others(root, config, tmp_path):
+def test_failures_at_rest_on_the_sphere_are_told_from_others(judge, config, tmp_path):
     """Twelve failures on the keep-out sphere without speed; then with speed."""
     radius = config["rendezvous"]["inferred"]["keep_out_m"]
     table = synthetic.sweep("rendezvous", *RENDEZVOUS, 60, *AS_SAID["rendezvous"])
@@ -196,10 +202,10 @@ def test_failures_at_rest_on_the_sphere_are_told_from_others(root, config, tmp_p
     table.loc[failed, "rendezvous_end_y_m"] = -radius
     write(tmp_path, rendezvous_sweep=table)
     names = ["failures-stall", "rendezvous-failures"]
-    assert judge(root, config, tmp_path, names) == dict.fromkeys(names, "holds")
+    assert judge(config, tmp_path, names) == dict.fromkeys(names, "holds")
     table.loc[failed, "rendezvous_end_vx_m_s"] = 1.0
     write(tmp_path, rendezvous_sweep=table)
-    assert judge(root, config, tmp_path, names)["failures-stall"] == "fails"
+    assert judge(config, tmp_path, names)["failures-stall"] == "fails"
 
 
 def test_predictive_count_covers_another_sample():

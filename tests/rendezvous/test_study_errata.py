@@ -43,52 +43,51 @@ def domain(folder, factor):
     write_table(synthetic.pd.concat(parts, ignore_index=True), folder / "studies/domain.parquet")
 
 
-def printed(monkeypatch, name, changes):
-    """The ledger with other numbers at some places."""
-    right = getattr(study_errata, name)
-    monkeypatch.setattr(
-        study_errata, name, lambda place: changes[place] if place in changes else right(place)
-    )
-
-
-def test_sample_time_subscript(config, monkeypatch):
+def test_sample_time_subscript(config, grounds):
     """Printed in one list only; in both, the subscript would be no slip."""
-    assert study_errata.sample_time_subscript(config, NOWHERE).holds
-    printed(monkeypatch, "value_list", {"section-4-3/approach-sample-times-tested": [5, 30, 60]})
-    assert not study_errata.sample_time_subscript(config, NOWHERE).holds
+    found = study_errata.sample_time_subscript(grounds("rendezvous", config, NOWHERE))
+    assert found.holds and found.correct == "Ts,1 = 60 s"
+    both = {"section-4-3/approach-sample-times-tested/item-6": "60"}
+    changed = grounds("rendezvous", config, NOWHERE, both)
+    assert not study_errata.sample_time_subscript(changed).holds
 
 
-@pytest.mark.parametrize("listed", [[5, 12, 30], [5, 12]])
-def test_docking_horizons(config, monkeypatch, listed):
+@pytest.mark.parametrize(
+    ("place", "other"),
+    [
+        ("section-4-4/docking-prediction-horizons-n3-tested/item-1", "30"),
+        ("section-6-2/docking-horizons-n3-benchmarked/item-3", "5"),
+    ],
+)
+def test_docking_horizons(config, grounds, place, other):
     """Missing in one list and printed in another; listed in both, or nowhere, it is no slip."""
-    assert study_errata.docking_horizons(config, NOWHERE).holds
-    both = ("docking-prediction-horizons-n3-tested", "docking-horizons-n3-benchmarked")
-    places = [f"section-{s}/{name}" for s, name in zip(("4-4", "6-2"), both, strict=True)]
-    printed(monkeypatch, "value_list", dict.fromkeys(places, listed))
-    assert not study_errata.docking_horizons(config, NOWHERE).holds
+    found = study_errata.docking_horizons(grounds("rendezvous", config, NOWHERE))
+    assert found.holds and found.correct == "N3 = 5, 12, 30"
+    changed = grounds("rendezvous", config, NOWHERE, {place: other})
+    assert not study_errata.docking_horizons(changed).holds
 
 
-def test_approach_figures_swapped(config, tmp_path):
+def test_approach_figures_swapped(config, tmp_path, grounds):
     """Infeasible at the shortest horizon; at the next one, the text would be right."""
     fly(tmp_path)
-    assert study_errata.approach_figures_swapped(config, tmp_path).holds
+    assert study_errata.approach_figures_swapped(grounds("rendezvous", config, tmp_path)).holds
     fly(tmp_path, infeasible_at=15)
-    assert not study_errata.approach_figures_swapped(config, tmp_path).holds
+    assert not study_errata.approach_figures_swapped(grounds("rendezvous", config, tmp_path)).holds
 
 
-def test_docking_axis_label(config, tmp_path):
+def test_docking_axis_label(config, tmp_path, grounds):
     """With few intervals of docking, or an approach on little delta-v, the label may be right."""
     fly(tmp_path)
-    assert study_errata.docking_axis_label(config, tmp_path).holds
+    assert study_errata.docking_axis_label(grounds("rendezvous", config, tmp_path)).holds
     fly(tmp_path, steps={"approach": 280, "docking": 60})
-    assert not study_errata.docking_axis_label(config, tmp_path).holds
+    assert not study_errata.docking_axis_label(grounds("rendezvous", config, tmp_path)).holds
     fly(tmp_path, delta_v={"approach": 0.1})
-    assert not study_errata.docking_axis_label(config, tmp_path).holds
+    assert not study_errata.docking_axis_label(grounds("rendezvous", config, tmp_path)).holds
 
 
-def test_appendix_caption(config, tmp_path):
+def test_appendix_caption(config, tmp_path, grounds):
     """Two variants that look alike could share a figure."""
     domain(tmp_path, 3.0)
-    assert study_errata.appendix_caption(config, tmp_path).holds
+    assert study_errata.appendix_caption(grounds("rendezvous", config, tmp_path)).holds
     domain(tmp_path, 1.0)
-    assert not study_errata.appendix_caption(config, tmp_path).holds
+    assert not study_errata.appendix_caption(grounds("rendezvous", config, tmp_path)).holds

@@ -7,8 +7,8 @@ import pytest
 from matplotlib import pyplot as plt
 
 from smallsat.results import read_table
+from smallsat.studies.rendezvous.evidence.case_tables import TOTAL
 from smallsat.studies.rendezvous.evidence.observations import case_cells, observations, undocked
-from smallsat.studies.rendezvous.evidence.printed import TOTAL
 from smallsat.studies.rendezvous.figures import cases as plots
 from smallsat.studies.rendezvous.figures import schematics
 from smallsat.studies.rendezvous.guidance.law import PHASES

@@ -71,7 +71,7 @@ def test_no_plan_at_all_leaves_tables_with_their_columns():
     assert len(joined([], HELD_COLUMNS)) == 0
 
 
-def test_claims_are_undecided_or_right_about_another_time(section, tmp_path):
+def test_claims_are_undecided_or_right_about_another_time(section, tmp_path, grounds):
     """With a plan the document's guess fails; between the bound and a plan nobody knows."""
     times = pd.DataFrame(
         {
@@ -89,9 +89,10 @@ def test_claims_are_undecided_or_right_about_another_time(section, tmp_path):
         pd.DataFrame(answer | {"miss": [0.1]}).to_csv(tmp_path / "infeasible.csv", index=False)
         config = {"slew": copy.deepcopy(section)}
         config["slew"]["manoeuvre"]["duration_s"] = duration
+        given = grounds("slew", config, tmp_path)
         outcomes[duration] = (
-            claims.not_in_the_given_time(config, tmp_path).outcome,
-            claims.valid_trajectory_at_limits(config, tmp_path).outcome,
+            claims.not_in_the_given_time(given).outcome,
+            claims.valid_trajectory_at_limits(given).outcome,
         )
     assert outcomes == {
         100.0: ("holds", "fails"),
@@ -100,21 +101,21 @@ def test_claims_are_undecided_or_right_about_another_time(section, tmp_path):
     }
 
 
-def test_a_least_time_that_was_not_found_decides_nothing(section, tmp_path):
+def test_a_least_time_that_was_not_found_decides_nothing(section, tmp_path, grounds):
     """A LookupError, which the judge calls undecided."""
     times = {"case": ["180 deg, wheels"], "duration_s": [np.nan], "converged": [False]}
     pd.DataFrame(times).to_csv(tmp_path / "minimum-times.csv", index=False)
     with pytest.raises(LookupError):
-        claims.eigenaxis_is_not_fastest({"slew": section}, tmp_path)
+        claims.eigenaxis_is_not_fastest(grounds("slew", {"slew": section}, tmp_path))
 
 
-def test_claims_about_yaw_need_a_turn_about_z(section, tmp_path):
+def test_claims_about_yaw_need_a_turn_about_z(section, tmp_path, grounds):
     """For another axis the printed words mean nothing: not judged."""
     config = {"slew": copy.deepcopy(section)}
     config["slew"]["manoeuvre"]["quarter"]["target_quaternion"] = [0.6, 0.0, 0.0, 0.8]
     for predicate in (claims.better_than_eigenaxis, claims.open_loop_follows):
         with pytest.raises(LookupError, match="not about"):
-            predicate(config, tmp_path)
+            predicate(grounds("slew", config, tmp_path))
 
 
 @pytest.mark.parametrize(

@@ -35,7 +35,7 @@ def section(config):
 
 
 @pytest.fixture(scope="module")
-def results(section, root, tmp_path_factory):
+def results(section, root, tmp_path_factory, grounds):
     """Results of a run in which no extremal is found."""
     folder = tmp_path_factory.mktemp("missing")
 
@@ -55,12 +55,13 @@ def results(section, root, tmp_path_factory):
         solve._collocation(argparse.Namespace(**common))
         for intervals in (1, 2):
             solve._as_published(argparse.Namespace(intervals=intervals, **common))
-        observe._gather(argparse.Namespace(results=folder, intervals=[1, 2]))
+        values = root / "data/published/values.csv"
+        observe._gather(argparse.Namespace(results=folder, intervals=[1, 2], ledger=values))
         observe._observe(argparse.Namespace(results=folder, published=root / "data/published"))
         published = root / "data/published/transfer"
-        whole = {"transfer": section}
-        claims = judge_claims(read_yaml(published / "claims.yaml"), whole, folder, "claims.yaml")
-        errata = prove_errata(read_yaml(published / "errata.yaml"), whole, folder, "errata.yaml")
+        given = grounds("transfer", {"transfer": section}, folder)
+        claims = judge_claims(read_yaml(published / "claims.yaml"), given, "claims.yaml")
+        errata = prove_errata(read_yaml(published / "errata.yaml"), given, "errata.yaml")
     claims.to_csv(folder / "claims.csv", index=False)
     errata.to_csv(folder / "errata.csv", index=False)
     return folder

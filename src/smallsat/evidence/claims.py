@@ -2,12 +2,11 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, Literal
 
 import pandas as pd
 
-from smallsat.config import Config
+from smallsat.evidence.grounds import Grounds
 from smallsat.evidence.reference import resolve
 
 CLAIM_COLUMNS = ("id", "locator", "claim", "outcome", "evidence")
@@ -22,7 +21,7 @@ class Judgement:
     evidence: str
 
 
-Predicate = Callable[[Config, Path], Judgement]
+Predicate = Callable[[Grounds], Judgement]
 
 
 def judged(condition: bool, evidence: str) -> Judgement:
@@ -30,15 +29,16 @@ def judged(condition: bool, evidence: str) -> Judgement:
     return Judgement("holds" if condition else "fails", evidence)
 
 
-def judge_claims(
-    entries: list[dict[str, Any]], config: Config, results: Path, path: str
-) -> pd.DataFrame:
-    """Apply every predicate to the results; one row a claim."""
+def judge_claims(entries: list[dict[str, Any]], grounds: Grounds, path: str) -> pd.DataFrame:
+    """Apply every predicate to the results; one row a claim.
+
+    ``entries`` are those of ``claims.yaml``, and ``path`` names that file in messages.
+    """
     rows = []
     for entry in entries:
         predicate: Predicate = resolve(entry["predicate"], path)
         try:
-            judgement = predicate(config, results)
+            judgement = predicate(grounds)
         except LookupError:
             # A what-if run may leave out the case that a predicate needs.
             judgement = Judgement("undecided", "this run leaves out a case that it needs")

@@ -1,13 +1,15 @@
 """Errata: printed values and formulas that are wrong, each with a proof that runs."""
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
-from smallsat.config import Config
+from smallsat.errors import InputError
+from smallsat.evidence.grounds import Grounds
+from smallsat.evidence.printed import parse_printed
 from smallsat.evidence.reference import resolve
 
 ERRATA_COLUMNS = (
@@ -21,6 +23,7 @@ ERRATA_COLUMNS = (
     "statement",
     "holds",
 )
+_NUMBER = re.compile(r"[+-]?\d+(\.\d+)?(e[+-]?\d+)?", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -35,30 +38,33 @@ class Proof:
         What follows from the printed and from the corrected value, in words or figures.
     statement
         One sentence that a reader can check: what was computed, and what it shows.
+    correct
+        What would have to be printed: a number in the printed unit, to which the entry's own
+        ``correct`` is held, or the words for an entry that has none. Empty where a formula or a
+        sentence is corrected, which the entry alone can say.
     """
 
     holds: bool
     as_printed: str
     as_corrected: str
     statement: str
+    correct: float | str = ""
 
 
-ProofFunction = Callable[[Config, Path], Proof]
+ProofFunction = Callable[[Grounds], Proof]
 
 
-def prove_errata(
-    entries: list[dict[str, Any]], config: Config, results: Path, path: str
-) -> pd.DataFrame:
+def prove_errata(entries: list[dict[str, Any]], grounds: Grounds, path: str) -> pd.DataFrame:
     """Run every proof; one row an erratum with what the proof found.
+
+    An erratum whose entry corrects to another number than its proof computes does not hold.
 
     Parameters
     ----------
     entries
         Entries of ``errata.yaml``.
-    config
-        The configuration, at least its section for this study.
-    results
-        Folder with the results of the study, which proofs may read.
+    grounds
+        What the proofs rest on.
     path
         Name of the file the entries come from, for messages.
     """
@@ -66,7 +72,7 @@ def prove_errata(
     for entry in entries:
         prove: ProofFunction = resolve(entry["proof"], path)
         try:
-            proof = prove(config, results)
+            proof = prove(grounds)
         except LookupError:
             # A what-if run may leave out the case that a proof needs.
             proof = Proof(False, "", "", "not computed: this run leaves out a case that it needs")
@@ -77,5 +83,23 @@ def prove_errata(
             "statement": proof.statement,
             "holds": bool(proof.holds),
         }
+        if isinstance(proof.correct, str):
+            row["correct"] = entry.get("correct", proof.correct)
+        elif not _corrects_to(row["correct"], proof.correct, f"{path}: '{entry['key']}'"):
+            row["holds"] = False
+            row["statement"] = (
+                f"the correction '{row['correct']}' is not what the proof computes, "
+                f"{proof.correct:.7g}. {proof.statement}"
+            )
         rows.append(row)
     return pd.DataFrame(rows, columns=list(ERRATA_COLUMNS))
+
+
+def _corrects_to(correct: float | str, computed: float, where: str) -> bool:
+    """Whether a correction, or the first number in it, has the digits of the computed one."""
+    text = str(correct)
+    first = _NUMBER.search(text)
+    number = parse_printed(text) or (parse_printed(first[0]) if first else None)
+    if number is None:
+        raise InputError(f"{where}: 'correct' is {text!r}; needed: the number that its proof finds")
+    return number.matches(computed)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from smallsat.evidence.claims import judge_claims
 from smallsat.evidence.errata import prove_errata
-from smallsat.evidence.ledger import read_ledger
+from smallsat.evidence.grounds import read_grounds
 from smallsat.evidence.verdicts import judge
 from smallsat.results import read_table, write_table
 from smallsat.strict_yaml import read_yaml
@@ -24,10 +24,11 @@ def main(arguments: argparse.Namespace) -> None:
     config, folder, results = arguments.config, arguments.published, arguments.results
     errata_path, claims_path = folder / "errata.yaml", folder / "claims.yaml"
     errata = read_yaml(errata_path)
-    proofs = prove_errata(errata, config, results, str(errata_path))
-    claims = judge_claims(read_yaml(claims_path), config, results, str(claims_path))
+    grounds = read_grounds(config, folder, results)
+    proofs = prove_errata(errata, grounds, str(errata_path))
+    claims = judge_claims(read_yaml(claims_path), grounds, str(claims_path))
     verdicts = judge(
-        read_ledger(folder / "values.csv"),
+        grounds.ledger.rows,
         read_table(results / "observations.csv"),
         read_yaml(folder / "rules.yaml"),
         read_yaml(folder / "bindings.yaml"),

@@ -1,12 +1,13 @@
 """The ledger of published values and the list of artefacts, checked as they are read."""
 
 import csv
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
+from typing import Self
 
 from smallsat.catalogue import Study
 from smallsat.errors import InputError
-from smallsat.evidence.printed import LOST, looks_numeric, parse_printed
+from smallsat.evidence.printed import LOST, Printed, looks_numeric, parse_printed
 
 VALUE_COLUMNS = (
     "id",
@@ -23,6 +24,63 @@ VALUE_KINDS = ("input", "result", "timing")
 ARTEFACT_COLUMNS = ("id", "kind", "caption", "class", "target")
 ARTEFACT_KINDS = ("table", "figure", "animation")
 Row = dict[str, str]
+
+
+class Ledger:
+    """The printed numbers of one document, asked by their ids without the document's name.
+
+    Attributes
+    ----------
+    rows
+        The document's rows of ``values.csv``, in the document's order.
+    """
+
+    def __init__(self, rows: Iterable[Row], document: str) -> None:
+        self._document = document
+        self.rows = list(rows)
+        self._literals = {
+            row["id"].removeprefix(f"{document}/"): row["printed"] for row in self.rows
+        }
+
+    @classmethod
+    def read(cls, path: Path | str) -> Self:
+        """The ledger of a study from its ``values.csv``; errors as from `read_ledger`."""
+        return cls(read_ledger(Path(path)), Path(path).resolve().parent.name)
+
+    def literal(self, identifier: str) -> str:
+        """A literal as printed.
+
+        Raises
+        ------
+        InputError
+            If the document has no such row.
+        """
+        try:
+            return self._literals[identifier]
+        except KeyError:
+            raise InputError(
+                f"values.csv: no id '{self._document}/{identifier}'; restore its row"
+            ) from None
+
+    def value(self, identifier: str) -> Printed:
+        """A printed number and how finely it was printed; an `InputError` where it is none."""
+        printed = parse_printed(self.literal(identifier))
+        if printed is None:
+            raise InputError(
+                f"values.csv: '{self._document}/{identifier}': "
+                f"{self.literal(identifier)!r} is no number; restore it"
+            )
+        return printed
+
+    def values(self, place: str) -> list[Printed]:
+        """The printed numbers of a vector or list, ``place/x`` or ``place/item-1`` and so on.
+
+        They come in the document's order; an `InputError` where the document has none there.
+        """
+        found = [name for name in self._literals if name.rpartition("/")[0] == place]
+        if not found:
+            raise InputError(f"values.csv: no id '{self._document}/{place}/...'; restore its rows")
+        return [self.value(name) for name in found]
 
 
 def read_ledger(path: Path) -> list[Row]:

@@ -39,6 +39,10 @@ class Printed:
     half_unit: float
     bound: bool = False
 
+    def __float__(self) -> float:
+        """The number, so that a list of printed numbers makes an array of numbers."""
+        return self.value
+
     def matches(self, computed: float) -> bool:
         """Whether a computed number is equal to the printed digits."""
         if self.bound:

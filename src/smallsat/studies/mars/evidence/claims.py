@@ -5,7 +5,6 @@ folder with the study's results.
 """
 
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -15,7 +14,7 @@ from smallsat.dynamics.attitude.mrp import dcm_to_mrp, mrp_rate
 from smallsat.dynamics.attitude.rigid_body import angular_acceleration
 from smallsat.dynamics.orbits.circular_orbits import hill_frame, orbit_frame, position, velocity
 from smallsat.evidence.claims import Judgement, judged
-from smallsat.results import read_table
+from smallsat.evidence.grounds import Grounds
 from smallsat.studies.mars.methods.independent_check import attitude_angle, inertial_momentum
 from smallsat.studies.mars.methods.simulation import OPEN_LOOP, run
 from smallsat.studies.mars.model.frames import (
@@ -26,12 +25,14 @@ from smallsat.studies.mars.model.frames import (
     nadir_frame_rate,
 )
 from smallsat.studies.mars.model.gains import damping_ratios, decay_times
-from smallsat.studies.mars.parameters import MARS_DAY, Parameters, parameters
+from smallsat.studies.mars.parameters import Parameters, parameters
 
 SIGMA = ["sigma_1", "sigma_2", "sigma_3"]
 OMEGA = ["omega_1", "omega_2", "omega_3"]
 SIGMA_REFERENCE = ["sigma_ref_1", "sigma_ref_2", "sigma_ref_3"]
 
+# Id of the Mars day, s.
+MARS_DAY = "section-xiii-b/mars-day-simulation-length-animation/full-mission"
 ROUNDING = 1e-12
 # A pointing error below this at the end of a run counts as having converged, deg.
 CONVERGED_DEG = 0.1
@@ -41,12 +42,12 @@ DECAY_TIMES = 5.0
 VISIBLE_DEG = 1.0
 
 
-def velocity_is_radius_times_rate(config: Config, results: Path) -> Judgement:
+def velocity_is_radius_times_rate(grounds: Grounds) -> Judgement:
     """Eq. 6 against a central difference of the position."""
-    given = parameters(config["mars"])
+    given = parameters(grounds.config["mars"])
     worst = 0.0
     for orbit in (given.lmo, given.gmo):
-        for time in np.linspace(0.0, config["mars"]["durations_s"]["mission"], 50):
+        for time in np.linspace(0.0, grounds.config["mars"]["durations_s"]["mission"], 50):
             ahead, behind = position(orbit, time + 1.0), position(orbit, time - 1.0)
             by_difference = np.subtract(ahead, behind) / 2.0
             speed = orbit.radius * orbit.rate
@@ -59,9 +60,9 @@ def velocity_is_radius_times_rate(config: Config, results: Path) -> Judgement:
     )
 
 
-def rates_follow_from_one_gravity(config: Config, results: Path) -> Judgement:
+def rates_follow_from_one_gravity(grounds: Grounds) -> Judgement:
     """Constant rate sqrt(mu / r^3): both rates of Table 2 must belong to one mu."""
-    given = parameters(config["mars"])
+    given = parameters(grounds.config["mars"])
     mu = [orbit.rate**2 * orbit.radius**3 / 1e9 for orbit in (given.lmo, given.gmo)]
     apart = abs(mu[0] / mu[1] - 1.0)
     # The rates have six significant digits, and mu goes with their square.
@@ -72,18 +73,19 @@ def rates_follow_from_one_gravity(config: Config, results: Path) -> Judgement:
     )
 
 
-def areosynchronous(config: Config, results: Path) -> Judgement:
+def areosynchronous(grounds: Grounds) -> Judgement:
     """The mothercraft's period against the Mars day of Section XIII.B."""
-    period = 2.0 * np.pi / config["mars"]["orbits"]["gmo"]["rate_rad_s"]
+    period = 2.0 * np.pi / grounds.config["mars"]["orbits"]["gmo"]["rate_rad_s"]
+    day = grounds.ledger.value(MARS_DAY).value
     return judged(
-        abs(period - MARS_DAY) < 1.0,
-        f"its period is {period:.1f} s, the Mars day given is {MARS_DAY:g} s",
+        abs(period - day) < 1.0,
+        f"its period is {period:.1f} s, the Mars day given is {day:g} s",
     )
 
 
-def euler_angle_rates(config: Config, results: Path) -> Judgement:
+def euler_angle_rates(grounds: Grounds) -> Judgement:
     """Eq. 11 with the orbit's rate about its normal only."""
-    given = parameters(config["mars"])
+    given = parameters(grounds.config["mars"])
     lmo = given.lmo
     s, c = np.sin(lmo.inclination), np.cos(lmo.inclination)
     angle = lmo.latitude_angle
@@ -106,12 +108,12 @@ def euler_angle_rates(config: Config, results: Path) -> Judgement:
     )
 
 
-def hill_frame_is_orbit_frame(config: Config, results: Path) -> Judgement:
+def hill_frame_is_orbit_frame(grounds: Grounds) -> Judgement:
     """[HN] from position and velocity against [ON] from the Euler angles."""
-    given = parameters(config["mars"])
+    given = parameters(grounds.config["mars"])
     worst = 0.0
     for orbit in (given.lmo, given.gmo):
-        for time in np.linspace(0.0, config["mars"]["durations_s"]["mission"], 200):
+        for time in np.linspace(0.0, grounds.config["mars"]["durations_s"]["mission"], 200):
             hill = np.array(hill_frame(position(orbit, time), velocity(orbit, time)))
             worst = max(worst, float(np.max(np.abs(hill - np.array(orbit_frame(orbit, time))))))
     return judged(
@@ -119,11 +121,11 @@ def hill_frame_is_orbit_frame(config: Config, results: Path) -> Judgement:
     )
 
 
-def nadir_frame_is_flipped_orbit_frame(config: Config, results: Path) -> Judgement:
+def nadir_frame_is_flipped_orbit_frame(grounds: Grounds) -> Judgement:
     """[RnN] against [ON] with the first and third rows negated."""
-    lmo = parameters(config["mars"]).lmo
+    lmo = parameters(grounds.config["mars"]).lmo
     flip = np.array([[-1.0], [1.0], [-1.0]])
-    times = np.linspace(0.0, config["mars"]["durations_s"]["mission"], 200)
+    times = np.linspace(0.0, grounds.config["mars"]["durations_s"]["mission"], 200)
     worst = max(
         float(np.max(np.abs(np.array(nadir_frame(lmo, t)) - flip * np.array(orbit_frame(lmo, t)))))
         for t in times
@@ -131,10 +133,10 @@ def nadir_frame_is_flipped_orbit_frame(config: Config, results: Path) -> Judgeme
     return judged(worst < ROUNDING, f"over the mission no entry differs by more than {worst:.1e}")
 
 
-def nadir_rate_is_orbit_rate(config: Config, results: Path) -> Judgement:
+def nadir_rate_is_orbit_rate(grounds: Grounds) -> Judgement:
     """Eq. 26 against a central difference of [RnN]."""
-    lmo = parameters(config["mars"]).lmo
-    times = np.linspace(0.0, config["mars"]["durations_s"]["mission"], 50)
+    lmo = parameters(grounds.config["mars"]).lmo
+    times = np.linspace(0.0, grounds.config["mars"]["durations_s"]["mission"], 50)
     worst = max(
         float(np.linalg.norm(_frame_rate(lambda t: nadir_frame(lmo, t), time) - np.array(rate)))
         for time, rate in ((time, nadir_frame_rate(lmo, time)) for time in times)
@@ -145,9 +147,9 @@ def nadir_rate_is_orbit_rate(config: Config, results: Path) -> Judgement:
     )
 
 
-def finite_difference_converges(config: Config, results: Path) -> Judgement:
+def finite_difference_converges(grounds: Grounds) -> Judgement:
     """The forward difference of [RcN] against a far more accurate one, for shrinking dt."""
-    section = config["mars"]
+    section = grounds.config["mars"]
     given = parameters(section)
     time = float(section["answer_times_s"]["reference_frames"])
     exact = _frame_rate(lambda t: gmo_frame(given.lmo, given.gmo, t), time)
@@ -166,10 +168,10 @@ def finite_difference_converges(config: Config, results: Path) -> Judgement:
     return judged(falls, f"error of omega_Rc/N in rad/s: {listed}: it falls in proportion to dt")
 
 
-def torque_free_invariants(config: Config, results: Path) -> Judgement:
+def torque_free_invariants(grounds: Grounds) -> Judgement:
     """Momentum, energy and an independent integration of the run without torque."""
-    inertia = parameters(config["mars"]).inertia
-    ours, again = _both(results, "no torque")
+    inertia = parameters(grounds.config["mars"]).inertia
+    ours, again = _both(grounds, "no torque")
     if not ours[OMEGA].to_numpy().any():
         return Judgement("undecided", "the body rests: nothing moves that could be conserved")
     momentum = inertial_momentum(inertia, ours[SIGMA].to_numpy(), ours[OMEGA].to_numpy())
@@ -184,9 +186,9 @@ def torque_free_invariants(config: Config, results: Path) -> Judgement:
     )
 
 
-def rates_oscillate_about_zero(config: Config, results: Path) -> Judgement:
+def rates_oscillate_about_zero(grounds: Grounds) -> Judgement:
     """Sign changes of each rate in the first and the last quarter of the fixed-torque run."""
-    _, accurate = _both(results, "fixed torque")
+    _, accurate = _both(grounds, "fixed torque")
     rate = accurate[OMEGA].to_numpy()
     quarter = len(rate) // 4
     first, last = _sign_changes(rate[:quarter]), _sign_changes(rate[-quarter:])
@@ -203,9 +205,9 @@ def rates_oscillate_about_zero(config: Config, results: Path) -> Judgement:
     )
 
 
-def attitude_oscillation_speeds_up(config: Config, results: Path) -> Judgement:
+def attitude_oscillation_speeds_up(grounds: Grounds) -> Judgement:
     """Speed of the attitude's rotation and sign changes of the accurate attitude."""
-    _, accurate = _both(results, "fixed torque")
+    _, accurate = _both(grounds, "fixed torque")
     speed = np.linalg.norm(accurate[OMEGA].to_numpy(), axis=1)
     quarter = len(speed) // 4
     means = [speed[k * quarter : (k + 1) * quarter].mean() for k in range(4)]
@@ -220,11 +222,11 @@ def attitude_oscillation_speeds_up(config: Config, results: Path) -> Judgement:
     )
 
 
-def step_leaves_artefacts(config: Config, results: Path) -> Judgement:
+def step_leaves_artefacts(grounds: Grounds) -> Judgement:
     """The fixed-torque run with the document's step and smaller ones against an adaptive method."""
-    section = config["mars"]
+    section = grounds.config["mars"]
     given = parameters(section)
-    _, accurate = _both(results, "fixed torque")
+    _, accurate = _both(grounds, "fixed torque")
     duration, switch = section["durations_s"]["response"], section["mrp_switch"]["torque"]
     torque = np.array(section["fixed_torque_N_m"], dtype=float)
     errors = {}
@@ -255,9 +257,9 @@ def step_leaves_artefacts(config: Config, results: Path) -> Judgement:
     )
 
 
-def gains_meet_requirements(config: Config, results: Path) -> Judgement:
+def gains_meet_requirements(grounds: Grounds) -> Judgement:
     """Largest decay time and damping ratio, from the eigenvalues of the linearised closed loop."""
-    section = config["mars"]
+    section = grounds.config["mars"]
     given = parameters(section)
     required = section["requirements"]
     pairs = _closed_loop_eigenvalues(given)
@@ -273,9 +275,9 @@ def gains_meet_requirements(config: Config, results: Path) -> Judgement:
     )
 
 
-def performance_formulas(config: Config, results: Path) -> Judgement:
+def performance_formulas(grounds: Grounds) -> Judgement:
     """Eqs. 35 and 36 against the eigenvalues of the linearised closed loop."""
-    given = parameters(config["mars"])
+    given = parameters(grounds.config["mars"])
     slowest, damping = _decay_and_damping(_closed_loop_eigenvalues(given))
     by_35, by_36 = (
         decay_times(given.inertia, given.gains),
@@ -289,9 +291,9 @@ def performance_formulas(config: Config, results: Path) -> Judgement:
     )
 
 
-def extremes_fall_on_extreme_inertias(config: Config, results: Path) -> Judgement:
+def extremes_fall_on_extreme_inertias(grounds: Grounds) -> Judgement:
     """Which axes have the largest decay time and the largest damping ratio."""
-    given = parameters(config["mars"])
+    given = parameters(grounds.config["mars"])
     slowest = int(np.argmax(decay_times(given.inertia, given.gains)))
     damped = int(np.argmax(damping_ratios(given.inertia, given.gains)))
     return judged(
@@ -301,31 +303,32 @@ def extremes_fall_on_extreme_inertias(config: Config, results: Path) -> Judgemen
     )
 
 
-def sun_pointing_converges(config: Config, results: Path) -> Judgement:
+def sun_pointing_converges(grounds: Grounds) -> Judgement:
     """Sun pointing: error and the attitude reached."""
-    ours, _ = _both(results, "sun")
+    ours, _ = _both(grounds, "sun")
     target = np.array(dcm_to_mrp(SUN_FRAME))
-    return _converges(config, ours, f"; the frame's MRPs are {_text(target, 4)}")
+    return _converges(grounds.config, ours, f"; the frame's MRPs are {_text(target, 4)}")
 
 
-def nadir_pointing_converges(config: Config, results: Path) -> Judgement:
+def nadir_pointing_converges(grounds: Grounds) -> Judgement:
     """Nadir pointing: error at the end, and whether it decays as required."""
-    return _converges(config, _both(results, "nadir")[0])
+    return _converges(grounds.config, _both(grounds, "nadir")[0])
 
 
-def gmo_pointing_converges(config: Config, results: Path) -> Judgement:
+def gmo_pointing_converges(grounds: Grounds) -> Judgement:
     """GMO pointing: error at the end, and whether it decays as required."""
-    return _converges(config, _both(results, "gmo")[0])
+    return _converges(grounds.config, _both(grounds, "gmo")[0])
 
 
-def mission_converges(config: Config, results: Path) -> Judgement:
+def mission_converges(grounds: Grounds) -> Judgement:
     """Every interval of the mission: error five decay times after its start, and at its end."""
-    ours, _ = _both(results, "mission")
+    ours, _ = _both(grounds, "mission")
     mode = ours["mode"].to_numpy()
     starts = np.r_[0, np.flatnonzero(np.diff(mode[:-1])) + 1]
     ends = np.r_[starts[1:], len(mode) - 1]
     intervals = [
-        _decay(config, ours.iloc[start:end]) for start, end in zip(starts, ends, strict=True)
+        _decay(grounds.config, ours.iloc[start:end])
+        for start, end in zip(starts, ends, strict=True)
     ]
     decayed = [later / allowed for _, later, allowed, _ in intervals if not np.isnan(later)]
     if len(decayed) < len(intervals):
@@ -339,11 +342,11 @@ def mission_converges(config: Config, results: Path) -> Judgement:
     )
 
 
-def modes_switch_automatically(config: Config, results: Path) -> Judgement:
+def modes_switch_automatically(grounds: Grounds) -> Judgement:
     """The mission visits all modes, and each is the one Table 7 asks for."""
-    section = config["mars"]
+    section = grounds.config["mars"]
     given = parameters(section)
-    ours, _ = _both(results, "mission")
+    ours, _ = _both(grounds, "mission")
     times, mode = ours["time_s"].to_numpy(), ours["mode"].to_numpy()
     lmo = np.array([orbit_frame(given.lmo, t)[0] for t in times])
     gmo = np.array([orbit_frame(given.gmo, t)[0] for t in times])
@@ -360,7 +363,7 @@ def modes_switch_automatically(config: Config, results: Path) -> Judgement:
     )
 
 
-def _both(results: Path, name: str) -> tuple[pd.DataFrame, pd.DataFrame]:
+def _both(grounds: Grounds, name: str) -> tuple[pd.DataFrame, pd.DataFrame]:
     """A run as recorded and by the independent check.
 
     Raises
@@ -368,7 +371,7 @@ def _both(results: Path, name: str) -> tuple[pd.DataFrame, pd.DataFrame]:
     LookupError
         If one of them overflowed.
     """
-    tables = (read_table(results / f"{stem}.parquet") for stem in ("trajectories", "independent"))
+    tables = (grounds.table(f"{stem}.parquet") for stem in ("trajectories", "independent"))
     ours, again = (t[t["run"] == name].reset_index(drop=True) for t in tables)
     if not np.isfinite(np.vstack([one[SIGMA + OMEGA].to_numpy() for one in (ours, again)])).all():
         raise LookupError(f"the run '{name}' overflowed")

@@ -4,19 +4,19 @@ The signature is that of `smallsat.evidence.errata.ProofFunction`: the whole con
 folder with the study's results.
 """
 
-from pathlib import Path
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from smallsat.config import Config
 from smallsat.dynamics.attitude.mrp import mrp_to_dcm
 from smallsat.dynamics.attitude.rigid_body import angular_momentum, kinetic_energy
 from smallsat.dynamics.orbits.circular_orbits import orbit_frame, position
 from smallsat.evidence.errata import Proof
-from smallsat.results import read_table
+from smallsat.evidence.grounds import Grounds
+from smallsat.evidence.printed import Printed
+from smallsat.studies.mars.evidence.claims import MARS_DAY
 from smallsat.studies.mars.evidence.observations import row_at
-from smallsat.studies.mars.evidence.printed import literal
 from smallsat.studies.mars.methods.simulation import (
     AUTOMATIC,
     POINTING_RUNS,
@@ -33,24 +33,18 @@ from smallsat.studies.mars.model.frames import (
     nadir_frame_rate,
 )
 from smallsat.studies.mars.model.gains import Gains, damping_ratios
-from smallsat.studies.mars.parameters import KM, MARS_DAY, parameters
+from smallsat.studies.mars.parameters import KM, parameters
 
-# Printed literals that a proof confronts with what is computed.
-PRINTED_TABLE_8_SIGMA_1 = -0.443  # Table 8, 4400 s
-PRINTED_TABLE_8_TIME = 3  # its place among the mission's answer times
-PRINTED_ENERGY = 0.00938  # J, Section IX.B
-PRINTED_POSITION_450 = (-669.3, 3227.5, 1883.2)  # km, Section III.C
-LISTED_DAY = 90000.0  # s, Listing A.L
-
-HALF_OF_3_DECIMALS, HALF_OF_4_DECIMALS = 0.5e-3, 0.5e-4
+# Place of the misprinted column of Table 8 among the mission's answer times.
+MISPRINTED_TIME = 3
 ORTHOGONAL = 1e-12  # what rounding may leave of an orthogonal matrix's defect
 
 
-def table_8_misprint(config: Config, results: Path) -> Proof:
+def table_8_misprint(grounds: Grounds) -> Proof:
     """Table 8, 4400 s: no threshold, step or integrator gives the printed first component."""
-    section = config["mars"]
+    section = grounds.config["mars"]
     given = parameters(section)
-    time = section["answer_times_s"]["mission"][PRINTED_TABLE_8_TIME]
+    time = section["answer_times_s"]["mission"][MISPRINTED_TIME]
     difference = section["frame_difference_s"]["control"]
     thresholds = sorted(set(section["mrp_switch"].values()))
     steps = [section["step_s"] / n for n in (1, 2, 4)]
@@ -59,31 +53,33 @@ def table_8_misprint(config: Config, results: Path) -> Proof:
         for step in steps
         for threshold in thresholds
     ]
-    again = read_table(results / "independent.parquet").query("run == 'mission'")
+    again = grounds.table("independent.parquet").query("run == 'mission'")
     sigma_columns = ["sigma_1", "sigma_2", "sigma_3"]
     found.append(again.loc[np.isclose(again["time_s"], time), sigma_columns].to_numpy()[0])
     # Whatever set each run ended in, the printed value might stand for the other one.
     sigma = np.array(found)
     shadows = -sigma / np.sum(sigma**2, axis=1, keepdims=True)
     sigma_1 = np.r_[sigma[:, 0], shadows[:, 0]]
-    closest = float(np.min(np.abs(sigma_1 - PRINTED_TABLE_8_SIGMA_1)))
+    printed = grounds.ledger.value("table-8/sigma-b-n-at-t-4400-s/full-mission/1")
+    closest = float(np.min(np.abs(sigma_1 - printed.value)))
     ours = _row(document_runs(section, given)["mission"], time, "mission")[1]
     return Proof(
-        holds=closest > 2 * HALF_OF_3_DECIMALS,
-        as_printed=f"sigma_1 = {PRINTED_TABLE_8_SIGMA_1}",
+        holds=closest > 2 * printed.half_unit,
+        as_printed=f"sigma_1 = {printed.value}",
         as_corrected=f"sigma_1 = {ours:.3f}",
         statement=(
             f"{len(sigma)} runs ({len(thresholds)} MRP switch thresholds, {len(steps)} step sizes "
             f"and an adaptive integrator with quaternions) give sigma_1 between "
             f"{sigma[:, 0].min():.4f} and {sigma[:, 0].max():.4f}; neither they nor their shadow "
-            f"sets come closer to {PRINTED_TABLE_8_SIGMA_1} than {closest:.4f}"
+            f"sets come closer to {printed.value} than {closest:.4f}"
         ),
+        correct=float(ours),
     )
 
 
-def nadir_frame_sign(config: Config, results: Path) -> Proof:
+def nadir_frame_sign(grounds: Grounds) -> Proof:
     """[RnN](330 s): with the printed sign of entry (3,2) the matrix is no rotation."""
-    section = config["mars"]
+    section = grounds.config["mars"]
     lmo = parameters(section).lmo
     time = float(section["answer_times_s"]["reference_frames"])
     correct = np.array(nadir_frame(lmo, time))
@@ -101,32 +97,33 @@ def nadir_frame_sign(config: Config, results: Path) -> Proof:
             f"Eq. 25 makes the entry sin i cos Omega = {by_equation_25:+.4f}; with the other sign "
             f"the third row is not normal to the others (largest entry of R R' - 1: {before:.2f})"
         ),
+        correct=float(correct[2, 1]),
     )
 
 
-def kinetic_energy_half(config: Config, results: Path) -> Proof:
+def kinetic_energy_half(grounds: Grounds) -> Proof:
     """T = w' I w lacks the factor 1/2 that the printed value contains."""
-    section = config["mars"]
+    section = grounds.config["mars"]
     given = parameters(section)
     time = section["answer_times_s"]["no_torque"]
     rate = _row(document_runs(section, given)["no torque"], time, "no_torque")[4:7]
     correct = kinetic_energy(given.inertia, rate)
-    printed = float(rate @ (given.inertia * rate))
-    half_unit = 0.5e-5
+    without = float(rate @ (given.inertia * rate))
+    printed = grounds.ledger.value("section-ix-b/kinetic-energy-t-500-s/no-torque")
     return Proof(
-        holds=abs(correct - PRINTED_ENERGY) <= half_unit < abs(printed - PRINTED_ENERGY),
-        as_printed=f"w' I w = {printed:.5f} J",
+        holds=printed.matches(correct) and not printed.matches(without),
+        as_printed=f"w' I w = {without:.5f} J",
         as_corrected=f"w' I w / 2 = {correct:.5f} J",
         statement=(
-            f"The formula as printed gives {printed:.5f} J, with the factor 1/2 {correct:.5f} J; "
-            f"the value printed beside it is {PRINTED_ENERGY} J"
+            f"The formula as printed gives {without:.5f} J, with the factor 1/2 {correct:.5f} J; "
+            f"the value printed beside it is {printed.value} J"
         ),
     )
 
 
-def attitude_matrix_factor(config: Config, results: Path) -> Proof:
+def attitude_matrix_factor(grounds: Grounds) -> Proof:
     """The printed [BN] of an MRP set lacks (1 - sigma^2) on its second term."""
-    section = config["mars"]
+    section = grounds.config["mars"]
     given = parameters(section)
     time = section["answer_times_s"]["no_torque"]
     row = _row(document_runs(section, given)["no torque"], time, "no_torque")
@@ -150,9 +147,9 @@ def attitude_matrix_factor(config: Config, results: Path) -> Proof:
     )
 
 
-def gmo_frame_roots(config: Config, results: Path) -> Proof:
+def gmo_frame_roots(grounds: Grounds) -> Proof:
     """Eqs. 30 and 31 divide by squared lengths: the rows are not of length one."""
-    section = config["mars"]
+    section = grounds.config["mars"]
     given = parameters(section)
     time = float(section["answer_times_s"]["reference_frames"])
     a, b, c = np.subtract(position(given.gmo, time), position(given.lmo, time)) / KM
@@ -177,9 +174,9 @@ def gmo_frame_roots(config: Config, results: Path) -> Proof:
     )
 
 
-def gain_name(config: Config, results: Path) -> Proof:
+def gain_name(grounds: Grounds) -> Proof:
     """The summary's "K = 1/6" is P: with it as K the damping requirement is missed."""
-    section = config["mars"]
+    section = grounds.config["mars"]
     given = parameters(section)
     wrong = damping_ratios(given.inertia, Gains(k=given.gains.p, p=given.gains.p)).max()
     right = damping_ratios(given.inertia, given.gains).max()
@@ -195,9 +192,9 @@ def gain_name(config: Config, results: Path) -> Proof:
     )
 
 
-def gain_fraction(config: Config, results: Path) -> Proof:
+def gain_fraction(grounds: Grounds) -> Proof:
     """The intermediate fraction (1/36)/(3/5) is not the printed result 1/180; (1/36)/5 is."""
-    section = config["mars"]
+    section = grounds.config["mars"]
     given = parameters(section)
     inertia, required = given.inertia.min(), section["requirements"]["largest_damping_ratio"]
     # The numerator is P^2; the printed denominator reads 3/5.
@@ -211,46 +208,43 @@ def gain_fraction(config: Config, results: Path) -> Proof:
             f"P^2 over 3/5 is {printed:.5f}; P^2 over the smallest inertia {inertia:g} kg m^2 is "
             f"{correct:.5f} N m, the K that is used; the 3 may be a slip of the transcription"
         ),
+        correct=float(correct),
     )
 
 
-def latitude_angle_start(config: Config, results: Path) -> Proof:
+def latitude_angle_start(grounds: Grounds) -> Proof:
     """theta(t) = rate t omits theta(t0): without it the verified position does not come out."""
-    section = config["mars"]
+    section = grounds.config["mars"]
     lmo = parameters(section).lmo
     time = float(section["answer_times_s"]["position_lmo"])
     correct = np.array(position(lmo, time)) / KM
-    printed = np.array(position(lmo._replace(latitude_angle=0.0), time)) / KM
-    target = np.array(PRINTED_POSITION_450)
-    half_unit = 0.05
+    without = np.array(position(lmo._replace(latitude_angle=0.0), time)) / KM
+    printed = grounds.ledger.values("section-iii-c/inertial-position-r-lmo-450-s/lmo")
+    apart = float(np.linalg.norm(without - np.array(printed, dtype=float)))
     return Proof(
-        holds=bool(
-            np.all(np.abs(correct - target) <= half_unit)
-            and np.any(np.abs(printed - target) > half_unit)
-        ),
-        as_printed=f"r = {_text(printed, 1)} km",
+        holds=_all_match(printed, correct) and not _all_match(printed, without),
+        as_printed=f"r = {_text(without, 1)} km",
         as_corrected=f"r = {_text(correct, 1)} km",
         statement=(
-            f"Without the initial angle the position at {time:g} s is "
-            f"{np.linalg.norm(printed - target):.0f} km from the printed one, with it the printed "
-            f"digits come out"
+            f"Without the initial angle the position at {time:g} s is {apart:.0f} km from the "
+            f"printed one, with it the printed digits come out"
         ),
     )
 
 
-def visibility_overlap(config: Config, results: Path) -> Proof:
+def visibility_overlap(grounds: Grounds) -> Proof:
     """Table 1's footnotes call the mothercraft visible and not visible at exactly the limit."""
-    section = config["mars"]
+    section = grounds.config["mars"]
     given = parameters(section)
     limit = section["visibility_deg"]
     angles = np.array([limit - 1.0, limit, limit + 1.0])
     visible, hidden = (
-        literal(f"table-1-footnote/{name}-lmo-gmo-angular-separation")
+        grounds.ledger.literal(f"table-1-footnote/{name}-lmo-gmo-angular-separation")
         for name in ("visible", "not-visible")
     )
     as_printed = _meets(angles, visible).astype(int) + _meets(angles, hidden)
     corrected = _meets(angles, visible).astype(int) + (angles > limit)
-    day = read_table(results / "day.parquet")
+    day = grounds.table("day.parquet")
     times = day["time_s"].to_numpy()[:: max(1, len(day) // 20000)]
     lmo, gmo = (
         np.array([orbit_frame(orbit, t)[0] for t in times]) for orbit in (given.lmo, given.gmo)
@@ -270,9 +264,9 @@ def visibility_overlap(config: Config, results: Path) -> Proof:
     )
 
 
-def second_rate_panel(config: Config, results: Path) -> Proof:
+def second_rate_panel(grounds: Grounds) -> Proof:
     """Listings A.H plot omega_1 in the panel of omega_2 (Figs. 4 and 5)."""
-    runs = read_table(results / "trajectories.parquet")
+    runs = grounds.table("trajectories.parquet")
     apart = {
         name: float((group["omega_1"] - group["omega_2"]).abs().max())
         for name, group in runs.groupby("run")
@@ -292,10 +286,10 @@ def second_rate_panel(config: Config, results: Path) -> Proof:
     )
 
 
-def reference_rate_frame(config: Config, results: Path) -> Proof:
+def reference_rate_frame(grounds: Grounds) -> Proof:
     """Figs. 7, 8 and 10 compare the body rate with the reference's rate in inertial components."""
-    given = parameters(config["mars"])
-    last = read_table(results / "trajectories.parquet").query("run == 'nadir'").iloc[-1]
+    given = parameters(grounds.config["mars"])
+    last = grounds.table("trajectories.parquet").query("run == 'nadir'").iloc[-1]
     body_rate, reference_rate = (
         last[[f"{name}_{axis}" for axis in "123"]].to_numpy(dtype=float)
         for name in ("omega", "omega_ref")
@@ -316,23 +310,26 @@ def reference_rate_frame(config: Config, results: Path) -> Proof:
     )
 
 
-def day_length(config: Config, results: Path) -> Proof:
+def day_length(grounds: Grounds) -> Proof:
     """The commented-out 90000 s is no Mars day; 88620 s is the mothercraft's period."""
-    period = 2.0 * np.pi / config["mars"]["orbits"]["gmo"]["rate_rad_s"]
+    period = 2.0 * np.pi / grounds.config["mars"]["orbits"]["gmo"]["rate_rad_s"]
+    listed = grounds.ledger.value("listing-a-l-task-11/tf-commented-out/day-long-run").value
+    day = grounds.ledger.value(MARS_DAY).value
     return Proof(
-        holds=bool(abs(period - MARS_DAY) < 0.5 < abs(period - LISTED_DAY)),
-        as_printed=f"{LISTED_DAY:.0f} s",
-        as_corrected=f"{MARS_DAY:.0f} s",
+        holds=bool(abs(period - day) < 0.5 < abs(period - listed)),
+        as_printed=f"{listed:.0f} s",
+        as_corrected=f"{day:.0f} s",
         statement=(
             f"The areosynchronous rate of Table 2 makes a period of {period:.2f} s: the text's "
-            f"{MARS_DAY:.0f} s, not the listing's {LISTED_DAY:.0f} s"
+            f"{day:.0f} s, not the listing's {listed:.0f} s"
         ),
+        correct=float(period),
     )
 
 
-def switch_thresholds(config: Config, results: Path) -> Proof:
+def switch_thresholds(grounds: Grounds) -> Proof:
     """The tasks' different MRP switch thresholds change no attitude."""
-    section = config["mars"]
+    section = grounds.config["mars"]
     given = parameters(section)
     step, difference = section["step_s"], section["frame_difference_s"]["control"]
     thresholds = sorted(set(section["mrp_switch"].values()))
@@ -358,23 +355,23 @@ def switch_thresholds(config: Config, results: Path) -> Proof:
     )
 
 
-def tracking_rate_formula(config: Config, results: Path) -> Proof:
+def tracking_rate_formula(grounds: Grounds) -> Proof:
     """Section VIII.A subtracts the body rate from itself: Table 3 does not follow."""
-    section = config["mars"]
+    section = grounds.config["mars"]
     state = parameters(section).initial_state
     _, correct = tracking_error(state[:3], state[3:], SUN_FRAME, SUN_FRAME_RATE)
     body = np.array(mrp_to_dcm(state[:3]))
     printed = state[3:] - state[3:] - body @ np.array(SUN_FRAME_RATE)
-    table = np.array([float(literal(f"table-3/omega-b-r-t0/sun-pointing/{i}")) for i in (1, 2, 3)])
-    fits, fails = (np.abs(one - table) <= HALF_OF_4_DECIMALS for one in (correct, printed))
+    table = grounds.ledger.values("table-3/omega-b-r-t0/sun-pointing")
+    fails = any(one.matches(rate) for one, rate in zip(table, printed, strict=True))
     return Proof(
-        holds=bool(fits.all() and not fails.any()),
+        holds=_all_match(table, correct) and not fails,
         as_printed=f"omega_B/R = {_text(printed, 4)} rad/s (Sun)",
         as_corrected=f"omega_B/R = {_text(np.array(correct), 4)} rad/s (Sun)",
         statement=(
             f"As printed the rate relative to the resting Sun frame vanishes; without the repeated "
             f"term it is {_text(np.array(correct), 4)} rad/s, and Table 3 prints "
-            f"{_text(table, 4)}; the repetition may be "
+            f"{_text(np.array(table, dtype=float), 4)}; the repetition may be "
             f"a slip of the transcription"
         ),
     )
@@ -385,6 +382,11 @@ def _meets(angles: np.ndarray, condition: str) -> np.ndarray:
     sign, limit = condition.split()
     compare = {"<=": np.less_equal, ">=": np.greater_equal, ">": np.greater, "<": np.less}[sign]
     return compare(angles, float(limit))
+
+
+def _all_match(printed: Sequence[Printed], computed: Iterable[float]) -> bool:
+    """Whether every component has its printed digits."""
+    return all(one.matches(value) for one, value in zip(printed, computed, strict=True))
 
 
 def _row(record: np.ndarray, time: float, key: str) -> np.ndarray:

@@ -4,41 +4,42 @@ The signature is that of `smallsat.evidence.claims.Predicate`: the whole configu
 folder with the study's results.
 """
 
-from pathlib import Path
-
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.evidence.claims import Judgement, judged
-from smallsat.results import read_table
-from smallsat.studies.racing.evidence.printed import PRINTED
+from smallsat.evidence.grounds import Grounds
+from smallsat.studies.racing.evidence.observations import MILLI
+from smallsat.studies.racing.evidence.scores import CUBESATS, printed_scores
 from smallsat.studies.racing.methods.races import ANYWHERE, AS_PUBLISHED, GREEDY, INDIRECT, WHOLE
 from smallsat.studies.racing.methods.recovery import start_positions
 from smallsat.studies.racing.model.cubesat import CubeSat
 from smallsat.studies.racing.parameters import Parameters, parameters
 
 ROUNDING = 0.0015  # of a sum of two printed values and its own
-CUBESATS = ("Eeny", "Meeny", "Miny", "Mo")
 CENTRED = 1e-6  # m
 AGREES = 0.05  # s
 # Changes of a result that a reader would call massive, and none, as shares.
 MASSIVE, NOTHING = 0.1, 0.001
-COMMERCIAL = (10e-6, 500e-6)  # m/s^2 for 1 kg
-USED = (0.1, 0.5)  # m/s^2
 
 
-def _races(results: Path, solution: str, scenario: str) -> pd.DataFrame:
+def _races(grounds: Grounds, solution: str, scenario: str) -> pd.DataFrame:
     """Races of one kind by CubeSat; those without a solution are not among them."""
-    races = read_table(results / "races.csv")
+    races = grounds.table("races.csv")
     rows = races[(races["solution"] == solution) & (races["scenario"] == scenario)]
     return rows[rows["time_s"].notna()].set_index("cubesat")
 
 
-def _all_races(results: Path, solution: str, scenario: str) -> pd.DataFrame:
+def _all_races(grounds: Grounds, solution: str, scenario: str) -> pd.DataFrame:
     """The same where a claim speaks of all CubeSats; a `LookupError` where one is missing."""
-    rows = _races(results, solution, scenario)
+    rows = _races(grounds, solution, scenario)
     return rows.loc[list(CUBESATS)]
+
+
+def _printed(grounds: Grounds, scenario: str) -> pd.DataFrame:
+    """The printed scores of a race by CubeSat."""
+    table = printed_scores(grounds.ledger)
+    return table[table["scenario"] == scenario].set_index("cubesat")
 
 
 def _complete(table: pd.DataFrame, *columns: str) -> pd.DataFrame:
@@ -48,8 +49,8 @@ def _complete(table: pd.DataFrame, *columns: str) -> pd.DataFrame:
     return table
 
 
-def _meshes(results: Path) -> pd.DataFrame:
-    table = _complete(read_table(results / "meshes.csv"), "time_s")
+def _meshes(grounds: Grounds) -> pd.DataFrame:
+    table = _complete(grounds.table("meshes.csv"), "time_s")
     return table[table["intervals"] == table["intervals"].min()]
 
 
@@ -61,9 +62,9 @@ def _axial(given: Parameters) -> CubeSat:
     return mo
 
 
-def faster_with_thrust(config: Config, results: Path) -> Judgement:
+def faster_with_thrust(grounds: Grounds) -> Judgement:
     """Optimal times over thrust."""
-    sweep = _complete(read_table(results / "thrust-sweep.csv"), f"{WHOLE} (s)")
+    sweep = _complete(grounds.table("thrust-sweep.csv"), f"{WHOLE} (s)")
     sweep = sweep.sort_values("thrust_m_s2")
     times = sweep[f"{WHOLE} (s)"].to_numpy()
     products = times * np.sqrt(sweep["thrust_m_s2"].to_numpy())
@@ -75,9 +76,9 @@ def faster_with_thrust(config: Config, results: Path) -> Judgement:
     )
 
 
-def no_thrust_is_best_for_accuracy(config: Config, results: Path) -> Judgement:
+def no_thrust_is_best_for_accuracy(grounds: Grounds) -> Judgement:
     """Misses of the optimum over thrust."""
-    sweep = _complete(read_table(results / "thrust-sweep.csv"), f"{WHOLE} (s)")
+    sweep = _complete(grounds.table("thrust-sweep.csv"), f"{WHOLE} (s)")
     worst = float(sweep[f"{WHOLE}, residual"].max())
     multiplier = float(sweep["largest_ring_multiplier_s_m"].max())
     return judged(
@@ -89,9 +90,9 @@ def no_thrust_is_best_for_accuracy(config: Config, results: Path) -> Judgement:
     )
 
 
-def mo_can_pass(config: Config, results: Path) -> Judgement:
+def mo_can_pass(grounds: Grounds) -> Judgement:
     """Mo's optimum within the limits of its axes."""
-    row = _races(results, WHOLE, "scenario-1").loc["Mo"]
+    row = _races(grounds, WHOLE, "scenario-1").loc["Mo"]
     passed = row["missed"] == 0 and row["off_axis"] == 0 and row["residual"] < CENTRED
     return judged(
         not passed,
@@ -101,10 +102,10 @@ def mo_can_pass(config: Config, results: Path) -> Judgement:
     )
 
 
-def mo_slower_than_meeny(config: Config, results: Path) -> Judgement:
+def mo_slower_than_meeny(grounds: Grounds) -> Judgement:
     """Optimal times of Mo and Meeny."""
-    races = _all_races(results, WHOLE, "scenario-1")["time_s"]
-    given = parameters(config["racing"])
+    races = _all_races(grounds, WHOLE, "scenario-1")["time_s"]
+    given = parameters(grounds.config["racing"])
     mo = next(c for c in given.races["scenario-1"].cubesats if c.name == "Mo")
     return judged(
         bool(races["Mo"] > races["Meeny"]),
@@ -115,9 +116,9 @@ def mo_slower_than_meeny(config: Config, results: Path) -> Judgement:
     )
 
 
-def direction_is_the_trouble(config: Config, results: Path) -> Judgement:
+def direction_is_the_trouble(grounds: Grounds) -> Judgement:
     """Our solve of the listings: rings missed, and crossed off their normals."""
-    races = read_table(results / "races.csv")
+    races = grounds.table("races.csv")
     rows = races[races["solution"] == AS_PUBLISHED]
     rings = rows["rings"].sum()
     return judged(
@@ -129,9 +130,9 @@ def direction_is_the_trouble(config: Config, results: Path) -> Judgement:
     )
 
 
-def full_thrust_against_primer(config: Config, results: Path) -> Judgement:
+def full_thrust_against_primer(grounds: Grounds) -> Judgement:
     """Thrust and primer of the optimum, from independent parts of the solution."""
-    meshes = _meshes(results)
+    meshes = _meshes(grounds)
     # A run in which all thrusters are alike has only one of the two.
     free = _complete(meshes[meshes["primer_angle_median_deg"].notna()], "time_s")
     share = float(free["full_thrust_share"].min())
@@ -149,11 +150,11 @@ def full_thrust_against_primer(config: Config, results: Path) -> Judgement:
     )
 
 
-def hamiltonian_is_minus_one(config: Config, results: Path) -> Judgement:
+def hamiltonian_is_minus_one(grounds: Grounds) -> Judgement:
     """The Hamiltonian of the optimum over meshes."""
-    table = _complete(read_table(results / "meshes.csv"), "time_s")
+    table = _complete(grounds.table("meshes.csv"), "time_s")
     found = table.groupby("intervals")["hamiltonian_error"].max()
-    median = float(_meshes(results)["hamiltonian_median_error"].max())
+    median = float(_meshes(grounds)["hamiltonian_median_error"].max())
     fine = table[table["intervals"] == table["intervals"].max()]
     return judged(
         bool(found.iloc[-1] < found.iloc[0] and fine["hamiltonian_median_error"].max() < 0.01),
@@ -164,10 +165,10 @@ def hamiltonian_is_minus_one(config: Config, results: Path) -> Judgement:
     )
 
 
-def adjoints_jump(config: Config, results: Path) -> Judgement:
+def adjoints_jump(grounds: Grounds) -> Judgement:
     """Jumps of the costates at rings, on the whole-course optimum."""
-    largest = float(_meshes(results)["largest_ring_multiplier_s_m"].max())
-    segments = read_table(results / "optima-scenario-1-segments.csv")
+    largest = float(_meshes(grounds)["largest_ring_multiplier_s_m"].max())
+    segments = grounds.table("optima-scenario-1-segments.csv")
     rows = segments[(segments["solution"] == WHOLE) & (segments["cubesat"] == "Meeny")]
     rows = _complete(rows, "px")
     typical = float(np.linalg.norm(rows[["px", "py", "pz"]].to_numpy(), axis=1).mean())
@@ -178,11 +179,11 @@ def adjoints_jump(config: Config, results: Path) -> Judgement:
     )
 
 
-def not_smooth(config: Config, results: Path) -> Judgement:
+def not_smooth(grounds: Grounds) -> Judgement:
     """Where the problem has a kink or a jump: the miss at its optimum, and Mo's thrust."""
-    mo = _axial(parameters(config["racing"]))
+    mo = _axial(parameters(grounds.config["racing"]))
     jump = mo.thrust - float(np.linalg.norm(mo.axis_thrust[:2]))
-    worst = float(_all_races(results, WHOLE, "scenario-1")["accuracy_m"].max())
+    worst = float(_all_races(grounds, WHOLE, "scenario-1")["accuracy_m"].max())
     return judged(
         worst > CENTRED,
         f"the miss |r - r_ring| has its kink at zero, and that is where the optimum lies "
@@ -192,10 +193,10 @@ def not_smooth(config: Config, results: Path) -> Judgement:
     )
 
 
-def transversality_left_out(config: Config, results: Path) -> Judgement:
+def transversality_left_out(grounds: Grounds) -> Judgement:
     """Eq. 22 asks for a primer across the ring's normal; the listing does not."""
-    ours = _primer_at_rings(results, "optima", GREEDY)
-    theirs = _primer_at_rings(results, "as-published", AS_PUBLISHED)
+    ours = _primer_at_rings(grounds, "optima", GREEDY)
+    theirs = _primer_at_rings(grounds, "as-published", AS_PUBLISHED)
     return judged(
         not (ours < 0.05 and theirs > 0.1),
         f"Eq. 22 makes the primer vanish along the normal at a ring. Its component there has a "
@@ -205,10 +206,10 @@ def transversality_left_out(config: Config, results: Path) -> Judgement:
     )
 
 
-def _primer_at_rings(results: Path, stem: str, solution: str) -> float:
+def _primer_at_rings(grounds: Grounds, stem: str, solution: str) -> float:
     """Median share of the primer along the normal at the end of Meeny's segments in Scenario 1."""
-    path = read_table(results / f"{stem}-scenario-1-trajectories.parquet")
-    course = read_table(results / "course-scenario-1.csv")
+    path = grounds.table(f"{stem}-scenario-1-trajectories.parquet")
+    course = grounds.table("course-scenario-1.csv")
     normals = course[["nx", "ny", "nz"]].to_numpy(dtype=float)[1:-1]
     rows = _complete(path[(path["solution"] == solution) & (path["cubesat"] == "Meeny")], "pvx")
     last = rows.groupby("segment").last()[["pvx", "pvy", "pvz"]].to_numpy()[: len(normals)]
@@ -220,9 +221,9 @@ def _primer_at_rings(results: Path, stem: str, solution: str) -> float:
     return float(np.median(np.abs(np.sum(last * normals, axis=1)) / largest))
 
 
-def guess_is_ten_times_that(config: Config, results: Path) -> Judgement:
+def guess_is_ten_times_that(grounds: Grounds) -> Judgement:
     """Listing C.C, line 66."""
-    multiple = config["racing"]["as_published"]["duration_multiple"]
+    multiple = grounds.config["racing"]["as_published"]["duration_multiple"]
     return judged(
         multiple == 1.0,
         f"the listing guesses {multiple:g} times that time; and the adjoints, which the text "
@@ -230,15 +231,16 @@ def guess_is_ten_times_that(config: Config, results: Path) -> Judgement:
     )
 
 
-def minimum_cost_is_no_bound_of_the_race(config: Config, results: Path) -> Judgement:
+def minimum_cost_is_no_bound_of_the_race(grounds: Grounds) -> Judgement:
     """The formula along three paths of the same CubeSat on the same course."""
     texts, spread = [], []
+    printed = _printed(grounds, "scenario-1")["minimum_cost_s"].to_dict()
     for name in ("Eeny", "Meeny", "Miny"):
         values = [
-            float(_races(results, solution, "scenario-1")["minimum_cost_s"].to_dict()[name])
+            float(_races(grounds, solution, "scenario-1")["minimum_cost_s"].to_dict()[name])
             for solution in (WHOLE, GREEDY, AS_PUBLISHED)
         ]
-        values.append(PRINTED["scenario-1", name][3])
+        values.append(printed[name])
         spread.append(max(values) / min(values) - 1.0)
         texts.append(f"{name} {', '.join(f'{value:.0f}' for value in values)}")
     return judged(
@@ -250,9 +252,9 @@ def minimum_cost_is_no_bound_of_the_race(config: Config, results: Path) -> Judge
     )
 
 
-def start_positions_hardly_matter(config: Config, results: Path) -> Judgement:
+def start_positions_hardly_matter(grounds: Grounds) -> Judgement:
     """Optimal times from random places at the start of Scenario 2."""
-    table = _complete(read_table(results / "random-positions.csv"), "time_s")
+    table = _complete(grounds.table("random-positions.csv"), "time_s")
     times = table["time_s"]
     spread = float(times.max() - times.min())
     return judged(
@@ -265,9 +267,9 @@ def start_positions_hardly_matter(config: Config, results: Path) -> Judgement:
     )
 
 
-def potential_is_equal(config: Config, results: Path) -> Judgement:
+def potential_is_equal(grounds: Grounds) -> Judgement:
     """Optimal times of the four CubeSats of Scenario 2."""
-    times = _all_races(results, WHOLE, "scenario-2")["time_s"].sort_values()
+    times = _all_races(grounds, WHOLE, "scenario-2")["time_s"].sort_values()
     return Judgement(
         "holds" if times.index[0] == "Mo" else "fails",
         f"by the optimum Mo has it, and by next to nothing: "
@@ -277,12 +279,12 @@ def potential_is_equal(config: Config, results: Path) -> Judgement:
     )
 
 
-def whole_course_remedies(config: Config, results: Path) -> Judgement:
+def whole_course_remedies(grounds: Grounds) -> Judgement:
     """Whole course against segment by segment."""
     texts, better = [], []
     for scenario in ("scenario-1", "scenario-2"):
-        whole = _all_races(results, WHOLE, scenario)
-        greedy = _all_races(results, GREEDY, scenario)["time_s"]
+        whole = _all_races(grounds, WHOLE, scenario)
+        greedy = _all_races(grounds, GREEDY, scenario)["time_s"]
         gain = 100.0 * (1.0 - whole["time_s"] / greedy)
         better.append(bool((gain > 0.0).all() and (whole["off_axis"] == 0).all()))
         texts.append(f"{gain.min():.1f} to {gain.max():.1f} %")
@@ -295,34 +297,43 @@ def whole_course_remedies(config: Config, results: Path) -> Judgement:
     )
 
 
-def thousand_times(config: Config, results: Path) -> Judgement:
+def thousand_times(grounds: Grounds) -> Judgement:
     """Ratios of the accelerations used and those of commercial thrusters."""
-    ratios = [used / given for used, given in zip(USED, COMMERCIAL, strict=True)]
+    used, commercial = (
+        np.array(grounds.ledger.values(f"section-v/{place}"), dtype=float)
+        for place in (
+            "accelerations-used-in-this-project",
+            "equivalent-acceleration-of-commercial-thrusters/1-kg-1u",
+        )
+    )
+    ratios = used / (MILLI * commercial)
+    factor = "section-v/factor-by-which-commercial-thrust-is-below-this-project"
     return judged(
-        abs(ratios[1] - 1000.0) < 1.0,
+        grounds.ledger.value(factor).matches(ratios[1]),
         f"{ratios[1]:.0f} times for the largest values of both ranges, {ratios[0]:.0f} times for "
         f"the "
         f"smallest",
     )
 
 
-def cost_is_time_plus_accuracy(config: Config, results: Path) -> Judgement:
+def cost_is_time_plus_accuracy(grounds: Grounds) -> Judgement:
     """The printed rows."""
-    errors = [abs(cost - time - accuracy) for cost, time, accuracy, _ in PRINTED.values()]
+    table = printed_scores(grounds.ledger)
+    errors = (table["cost"] - table["time_s"] - table["accuracy_m"]).abs()
     return judged(
-        max(errors) <= ROUNDING,
-        f"in all {len(errors)} rows, to {max(errors):.3f} at most, which is rounding",
+        bool(errors.max() <= ROUNDING),
+        f"in all {len(errors)} rows, to {errors.max():.3f} at most, which is rounding",
     )
 
 
-def printed_runs_missed(config: Config, results: Path) -> Judgement:
+def printed_runs_missed(grounds: Grounds) -> Judgement:
     """The sum of the smaller axes is the most that misses can add up to without a ring missed."""
-    given = parameters(config["racing"])
+    given = parameters(grounds.config["racing"])
     limits = {name: float(race.course.sizes.sum()) for name, race in given.races.items()}
     missed = [
-        f"{cubesat} {row[2]:.1f} m (Scenario {scenario[-1]})"
-        for (scenario, cubesat), row in PRINTED.items()
-        if row[2] > limits[scenario]
+        f"{row['cubesat']} {row['accuracy_m']:.1f} m (Scenario {row['scenario'][-1]})"
+        for row in printed_scores(grounds.ledger).to_dict("records")
+        if row["accuracy_m"] > limits[row["scenario"]]
     ]
     return judged(
         len(missed) == 5,
@@ -332,21 +343,22 @@ def printed_runs_missed(config: Config, results: Path) -> Judgement:
     )
 
 
-def scenario_2_recovered(config: Config, results: Path) -> Judgement:
+def scenario_2_recovered(grounds: Grounds) -> Judgement:
     """The seed's start positions against Table 3, and every other day of some years."""
-    given = parameters(config["racing"])
-    seed = config["racing"]["scenarios"]["scenario-2"]["seed"]
+    given = parameters(grounds.config["racing"])
+    seed = grounds.config["racing"]["scenarios"]["scenario-2"]["seed"]
     race = given.races["scenario-2"]
     rings, places = start_positions(given, seed, len(race.cubesats))
     printed = np.array([cubesat.position for cubesat in race.cubesats])
     error = np.abs(places - printed)[:, [0, 2]]
-    days = read_table(results / "days-as-seeds.csv")
+    days = grounds.table("days-as-seeds.csv")
     day = days[days["seed"] == seed]
     if day.empty:
         raise LookupError("the seed is the number of no day of these years")
     others = days.loc[days["seed"] != seed, "largest_difference_m"].replace(np.inf, np.nan)
     along = abs(float(places[0, 1] - printed[0, 1]))
-    to_digit = int((error <= 0.05).sum())
+    half_unit = grounds.ledger.value("table-3/initial-position/scenario-2-eeny/x").half_unit
+    to_digit = int((error <= half_unit).sum())
     return judged(
         bool(to_digit >= 7 and along <= 0.5 and len(day) == 1 and others.min() > 100.0),
         f"seed {seed}, the serial number of {day['day'].iloc[0]}, gives {rings} rings, the printed "
@@ -357,9 +369,9 @@ def scenario_2_recovered(config: Config, results: Path) -> Judgement:
     )
 
 
-def published_solve_is_erratic(config: Config, results: Path) -> Judgement:
+def published_solve_is_erratic(grounds: Grounds) -> Judgement:
     """The same solve with one thing changed."""
-    table = read_table(results / "variants.csv")
+    table = grounds.table("variants.csv")
     costs = table["cost"]
     text = "; ".join(
         f"{row['variant']}: cost {row['cost']:.0f}, {row['missed']} missed, "
@@ -373,9 +385,9 @@ def published_solve_is_erratic(config: Config, results: Path) -> Judgement:
     )
 
 
-def penalty_is_exact(config: Config, results: Path) -> Judgement:
+def penalty_is_exact(grounds: Grounds) -> Judgement:
     """The largest multiplier of a ring's centre against the weight of a miss."""
-    table = _meshes(results)
+    table = _meshes(grounds)
     meshes = table["largest_ring_multiplier_s_m"]
     first = zip(table["cubesat"][:4], meshes[:4], strict=True)
     text = ", ".join(f"{name} {value:.3f}" for name, value in first)
@@ -387,22 +399,22 @@ def penalty_is_exact(config: Config, results: Path) -> Judgement:
     )
 
 
-def optimum_is_confirmed(config: Config, results: Path) -> Judgement:
+def optimum_is_confirmed(grounds: Grounds) -> Judgement:
     """Convergence, independent flights, other starts, meshes, dynamic programming."""
-    races = read_table(results / "races.csv")
+    races = grounds.table("races.csv")
     ours = races[races["solution"].isin((WHOLE, ANYWHERE, GREEDY))]
     _complete(ours, "time_s")
-    starts = read_table(results / "other-starts.csv")
+    starts = grounds.table("other-starts.csv")
     _complete(starts[starts["converged"]], "time_s")
     spread = starts[starts["converged"]].groupby(["scenario", "cubesat"])["time_s"]
     apart = float((spread.max() - spread.min()).max())
-    meshes = _complete(read_table(results / "meshes.csv"), "time_s")
+    meshes = _complete(grounds.table("meshes.csv"), "time_s")
     change = meshes.groupby(["scenario", "cubesat"])["time_s"].agg(
         lambda t: (t.iloc[0] - t.iloc[-1]) / t.iloc[0]
     )
-    dp = _complete(read_table(results / "dynamic-programming.csv"), "time_s").iloc[-1]
+    dp = _complete(grounds.table("dynamic-programming.csv"), "time_s").iloc[-1]
     name, scenario = dp["cubesat"], dp["scenario"]
-    whole = float(_races(results, WHOLE, scenario).loc[name, "time_s"])
+    whole = float(_races(grounds, WHOLE, scenario).loc[name, "time_s"])
     indirect = _complete(races[races["solution"] == INDIRECT], "rings")
     return judged(
         bool(
@@ -425,16 +437,15 @@ def optimum_is_confirmed(config: Config, results: Path) -> Judgement:
     )
 
 
-def published_among_random(config: Config, results: Path) -> Judgement:
+def published_among_random(grounds: Grounds) -> Judgement:
     """Printed times of Scenario 2 among optimal times of random courses with as many rings."""
-    table = read_table(results / "random-courses.csv")
+    table = grounds.table("random-courses.csv")
     own = table[table["rule"] == "generator"]
     times = _complete(own[own["time_s"].notna()], "time_s")["time_s"]
-    ours = float(_all_races(results, WHOLE, "scenario-2")["time_s"].mean())
+    ours = float(_all_races(grounds, WHOLE, "scenario-2")["time_s"].mean())
     ranks = {
-        name: 100.0 * float((times < row[1]).mean())
-        for (scenario, name), row in PRINTED.items()
-        if scenario == "scenario-2"
+        name: 100.0 * float((times < printed).mean())
+        for name, printed in _printed(grounds, "scenario-2")["time_s"].items()
     }
     place = 100.0 * float((times < ours).mean())
     return judged(

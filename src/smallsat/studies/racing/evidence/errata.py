@@ -5,7 +5,6 @@ folder with the study's results.
 """
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 from scipy.linalg import expm
@@ -14,8 +13,7 @@ from scipy.stats import chi2
 from smallsat.config import Config
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
 from smallsat.evidence.errata import Proof
-from smallsat.evidence.printed import parse_printed
-from smallsat.results import read_table
+from smallsat.evidence.grounds import Grounds
 from smallsat.studies.racing.methods import as_published
 from smallsat.studies.racing.methods.flight import fly_segment
 from smallsat.studies.racing.methods.races import INDIRECT
@@ -30,11 +28,11 @@ from smallsat.studies.racing.model.shooting import (
 )
 from smallsat.studies.racing.parameters import Parameters, parameters
 
-# Printed literals that a proof confronts with what is computed.
-PRINTED_VARIANCE = 250.0  # m^2, Section I
-PRINTED_MULTIPLE = 5.0  # comment in Listing C.B
-PRINTED_Y = {"scenario-1": "-480.5", "scenario-2": "-1696"}  # m, Tables 1 and 3
-PRINTED_DIGIT = 0.05  # m, half a unit of the printed positions
+# Places of one CubeSat at the start of each race.
+PLACES = {
+    "scenario-1": "table-1/initial-position/scenario-1-eeny",
+    "scenario-2": "table-3/initial-position/scenario-2-eeny",
+}
 PROBABLE = 0.01
 SECONDS = 90.0
 CONSTANT, DRIFTING = 1e-9, 1e-3
@@ -49,16 +47,17 @@ def _seeds(config: Config) -> dict[str, int]:
     return {name: values["seed"] for name, values in config["racing"]["scenarios"].items()}
 
 
-def _matched(given: Parameters, config: Config, variance: float) -> tuple[int, int, float]:
+def _matched(grounds: Grounds, given: Parameters, variance: float) -> tuple[int, int, float]:
     """How many x and z a variance gives to the digit, of how many, and the largest error."""
     changed = replace(given, scatter=float(np.sqrt(variance)))
     errors = []
     for scenario, race in given.races.items():
-        _, places = start_positions(changed, _seeds(config)[scenario], len(race.cubesats))
+        _, places = start_positions(changed, _seeds(grounds.config)[scenario], len(race.cubesats))
         printed = np.array([cubesat.position for cubesat in race.cubesats])
         errors.append(np.abs(places - printed)[:, [0, 2]])
     every = np.concatenate(errors).ravel()
-    return int((every <= PRINTED_DIGIT).sum()), len(every), float(every.max())
+    half_unit = grounds.ledger.value(f"{PLACES['scenario-1']}/x").half_unit
+    return int((every <= half_unit).sum()), len(every), float(every.max())
 
 
 def scatter_probability(given: Parameters, variance: float) -> float:
@@ -70,13 +69,15 @@ def scatter_probability(given: Parameters, variance: float) -> float:
     return 2.0 * min(below, 1.0 - below)
 
 
-def start_covariance(config: Config, results: Path) -> Proof:
+def start_covariance(grounds: Grounds) -> Proof:
     """250 m^2: the draws of the stream against the printed positions, and their scatter."""
-    given = parameters(config["racing"])
+    given = parameters(grounds.config["racing"])
     right = given.scatter**2
-    fits, of, error = _matched(given, config, right)
-    misfits, _, wrong = _matched(given, config, PRINTED_VARIANCE)
-    probability = scatter_probability(given, PRINTED_VARIANCE)
+    name = "section-i/cubesat-initial-position-covariance-diag/all-cubesats/x"
+    printed = grounds.ledger.value(name).value
+    fits, of, error = _matched(grounds, given, right)
+    misfits, _, wrong = _matched(grounds, given, printed)
+    probability = scatter_probability(given, printed)
     return Proof(
         holds=bool(fits >= of - 1 and misfits < of // 2 and probability < PROBABLE),
         as_printed=f"{misfits} of {of} coordinates, off by up to {wrong:.1f} m",
@@ -85,44 +86,48 @@ def start_covariance(config: Config, results: Path) -> Proof:
             f"the normal draws after the courses' in the streams of both seeds give {fits} of "
             f"{of} printed x and z to the digit with a variance of {right:.2f} m^2, and {misfits} "
             f"with "
-            f"{PRINTED_VARIANCE:g} m^2; without the streams, the scatter of Table 1 around the "
+            f"{printed:g} m^2; without the streams, the scatter of Table 1 around the "
             f"known "
             f"start has a probability of {probability:.2g} under the printed variance and "
             f"{scatter_probability(given, right):.2g} under the other"
         ),
+        correct=right,
     )
 
 
-def start_ring_comment(config: Config, results: Path) -> Proof:
+def start_ring_comment(grounds: Grounds) -> Proof:
     """The multiple of 5: the same draws, with the comment's number."""
-    given = parameters(config["racing"])
-    used = config["racing"]["start"]["axis_multiple"]
+    given = parameters(grounds.config["racing"])
+    used = grounds.config["racing"]["start"]["axis_multiple"]
     right = given.scatter**2
-    fits, of, _ = _matched(given, config, right)
-    misfits, _, wrong = _matched(given, config, right * PRINTED_MULTIPLE / used)
+    name = "listing-c-b-finalprojectmain-m/startring-comment-multiple-of-largest-axis"
+    printed = grounds.ledger.value(name).value
+    fits, of, _ = _matched(grounds, given, right)
+    misfits, _, wrong = _matched(grounds, given, right * printed / used)
     return Proof(
         holds=bool(fits >= of - 1 and misfits < of // 2),
         as_printed=f"{misfits} of {of} coordinates, off by up to {wrong:.1f} m",
         as_corrected=f"{fits} of {of} coordinates",
         statement=(
-            f"with {PRINTED_MULTIPLE:g} times the largest axis the draws give {misfits} of {of} "
+            f"with {printed:g} times the largest axis the draws give {misfits} of {of} "
             f"printed coordinates, with {used:g} times {fits}"
         ),
+        correct=float(used),
     )
 
 
-def angle_steps(config: Config, results: Path) -> Proof:
+def angle_steps(grounds: Grounds) -> Proof:
     """Whole ranges of the angles: the start of both courses along the track."""
-    given = parameters(config["racing"])
+    given = parameters(grounds.config["racing"])
     texts, fits, misfits = [], [], []
-    for scenario, seed in _seeds(config).items():
+    for scenario, seed in _seeds(grounds.config).items():
         halved = generate(MatlabStream(seed), given.ranges).start[1]
         whole = generate(MatlabStream(seed), given.ranges, halved=False).start[1]
-        printed = parse_printed(PRINTED_Y[scenario])
-        assert printed is not None, PRINTED_Y[scenario]
+        y = f"{PLACES[scenario]}/y"
+        printed = grounds.ledger.value(y)
         fits.append(printed.matches(halved))
         misfits.append(not printed.matches(whole))
-        texts.append((f"{whole:.1f}", f"{halved:.1f}", PRINTED_Y[scenario]))
+        texts.append((f"{whole:.1f}", f"{halved:.1f}", grounds.ledger.literal(y)))
     return Proof(
         holds=bool(all(fits) and all(misfits)),
         as_printed=", ".join(text[0] for text in texts) + " m",
@@ -155,10 +160,10 @@ def hamiltonian_drift(config: Config, transposed: bool) -> tuple[float, float]:
     return first, last
 
 
-def costate_transpose(config: Config, results: Path) -> Proof:
+def costate_transpose(grounds: Grounds) -> Proof:
     """Listing C.F: the Hamiltonian of a flight with either matrix."""
-    first, last = hamiltonian_drift(config, transposed=False)
-    right_first, right_last = hamiltonian_drift(config, transposed=True)
+    first, last = hamiltonian_drift(grounds.config, transposed=False)
+    right_first, right_last = hamiltonian_drift(grounds.config, transposed=True)
     drift, rest = abs(last - first), abs(right_last - right_first)
     return Proof(
         holds=bool(drift > DRIFTING * abs(first) and rest < CONSTANT * abs(right_first)),
@@ -187,9 +192,9 @@ def printed_adjoint_transition(n: float, t: float) -> np.ndarray:
     )
 
 
-def adjoint_transition(config: Config, results: Path) -> Proof:
+def adjoint_transition(grounds: Grounds) -> Proof:
     """Eq. 18 against the matrix exponential of Eq. 17, entry by entry."""
-    n, t = parameters(config["racing"]).mean_motion, 10.0 * SECONDS
+    n, t = parameters(grounds.config["racing"]).mean_motion, 10.0 * SECONDS
     exact = expm(costate_matrix(n) * t)
     printed = printed_adjoint_transition(n, t)
     # Rows and columns in units in which a time is measured by the orbit.
@@ -210,9 +215,9 @@ def adjoint_transition(config: Config, results: Path) -> Proof:
     )
 
 
-def ring_size(config: Config, results: Path) -> Proof:
+def ring_size(grounds: Grounds) -> Proof:
     """The least entry of S, for every ring of Scenario 1."""
-    course = parameters(config["racing"]).races["scenario-1"].course
+    course = parameters(grounds.config["racing"]).races["scenario-1"].course
     least = [float(np.min(np.diag(axes))) for axes in course.semi_axes]
     return Proof(
         holds=bool(max(least) == 0.0 and course.sizes.min() > 0.0),
@@ -228,9 +233,9 @@ def ring_size(config: Config, results: Path) -> Proof:
     )
 
 
-def axial_thrust(config: Config, results: Path) -> Proof:
+def axial_thrust(grounds: Grounds) -> Proof:
     """Eq. 24, the listings' law and the minimiser at one primer vector."""
-    given = parameters(config["racing"])
+    given = parameters(grounds.config["racing"])
     axial = [c for c in given.races["scenario-1"].cubesats if c.axis_thrust]
     if not axial:
         raise LookupError("no CubeSat has axial thrusters")
@@ -264,12 +269,12 @@ def _vector(values: np.ndarray) -> str:
     return "(" + ", ".join(f"{value:.4g}" for value in values) + ")"
 
 
-def equality_ranks(config: Config, results: Path, transposed: bool) -> tuple[int, int, int]:
+def equality_ranks(grounds: Grounds, transposed: bool) -> tuple[int, int, int]:
     """Of the twelve equalities at a converged segment: rows that move, their rank, and of pointing.
 
     The segment is Meeny's first by the indirect method, where all conditions hold.
     """
-    segments = read_table(results / "optima-scenario-1-segments.csv")
+    segments = grounds.table("optima-scenario-1-segments.csv")
     row = segments[
         (segments["solution"] == INDIRECT)
         & (segments["cubesat"] == "Meeny")
@@ -278,7 +283,7 @@ def equality_ranks(config: Config, results: Path, transposed: bool) -> tuple[int
     if not row["converged"]:
         raise LookupError("no converged segment")
     z = np.r_[row[["px", "py", "pz", "pvx", "pvy", "pvz"]].to_numpy(dtype=float), row["duration_s"]]
-    return ranks_at(parameters(config["racing"]), z, transposed)
+    return ranks_at(parameters(grounds.config["racing"]), z, transposed)
 
 
 def ranks_at(given: Parameters, z: np.ndarray, transposed: bool) -> tuple[int, int, int]:
@@ -317,11 +322,11 @@ def ranks_at(given: Parameters, z: np.ndarray, transposed: bool) -> tuple[int, i
     return moving, ranks[0], ranks[1]
 
 
-def redundant_equalities(config: Config, results: Path) -> Proof:
+def redundant_equalities(grounds: Grounds) -> Proof:
     """Ranks of the equalities' Jacobian at a solution, with right costates and the listing's."""
-    moving, rank, pointing = equality_ranks(config, results, transposed=True)
-    _, slipped, _ = equality_ranks(config, results, transposed=False)
-    segments = read_table(results / "as-published-scenario-1-segments.csv")
+    moving, rank, pointing = equality_ranks(grounds, transposed=True)
+    _, slipped, _ = equality_ranks(grounds, transposed=False)
+    segments = grounds.table("as-published-scenario-1-segments.csv")
     share = float((~segments["converged"]).mean())
     return Proof(
         holds=bool(moving <= 5 and rank == 3 and pointing == 2 and slipped == 4),

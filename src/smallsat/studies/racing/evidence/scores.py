@@ -2,37 +2,38 @@
 
 import pandas as pd
 
-from smallsat.studies.racing.evidence.printed import PRINTED
+from smallsat.evidence.ledger import Ledger
+from smallsat.studies.racing.evidence.observations import QUANTITIES, TABLES
 from smallsat.studies.racing.methods.races import SOLUTIONS
 
+CUBESATS = ("Eeny", "Meeny", "Miny", "Mo")
 SCENARIO_NAMES = {"scenario-1": "Scenario 1", "scenario-2": "Scenario 2"}
 
 
-def printed_table() -> pd.DataFrame:
-    """The printed scores, in the columns of the races."""
+def printed_scores(ledger: Ledger) -> pd.DataFrame:
+    """The printed scores of both races, Tables 2 and 4, in the columns of the races."""
     return pd.DataFrame(
         [
-            {
-                "scenario": scenario,
-                "cubesat": cubesat,
-                "solution": "printed",
-                "cost": cost,
-                "time_s": time,
-                "accuracy_m": accuracy,
+            {"scenario": scenario, "cubesat": cubesat, "solution": "printed"}
+            | {
+                column: ledger.value(f"{table}/{quantity}/{scenario}-{cubesat.lower()}").value
+                for quantity, column in QUANTITIES.items()
             }
-            for (scenario, cubesat), (cost, time, accuracy, _) in PRINTED.items()
+            for scenario, table in TABLES.items()
+            for cubesat in CUBESATS
         ]
     )
 
 
-def score_table(races: pd.DataFrame) -> pd.DataFrame:
+def score_table(races: pd.DataFrame, printed: pd.DataFrame) -> pd.DataFrame:
     """Every score by race and solution: place, cost, how far behind the winner, rings missed.
 
-    Solutions that did not converge somewhere say where; they take part all the same.
+    ``races`` are ours and ``printed`` the document's (`printed_scores`). Solutions that did not
+    converge somewhere say where; they take part all the same.
     """
     kept = ["scenario", "cubesat", "solution", "cost", "time_s", "accuracy_m", "missed"]
     columns = [*kept, "off_axis", "not_converged", "segments"]
-    table = pd.concat([printed_table(), races[columns]], ignore_index=True)
+    table = pd.concat([printed[kept[:-1]], races[columns]], ignore_index=True)
     order = {name: place for place, name in enumerate(("printed", *SOLUTIONS))}
     table["order"] = table["solution"].map(order)
     group = table.groupby(["scenario", "solution"])["cost"]

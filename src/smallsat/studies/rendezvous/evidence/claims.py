@@ -6,24 +6,22 @@ sets of the inference (``ensemble.csv``): it holds or fails where all of them ag
 undecided where they do not.
 """
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 from scipy.optimize import linprog
 
-from smallsat.config import Config
 from smallsat.evidence.claims import Judgement, Outcome, judged
-from smallsat.results import read_table
-from smallsat.studies.rendezvous.evidence.observations import FIRST_SECOND
-from smallsat.studies.rendezvous.evidence.printed import (
+from smallsat.evidence.grounds import Grounds
+from smallsat.studies.rendezvous.evidence.case_tables import (
     CASE_TABLES,
     TOTAL,
+    cell_id,
     phase_cells,
     total_cells,
-    value,
 )
+from smallsat.studies.rendezvous.evidence.observations import FIRST_SECOND
 from smallsat.studies.rendezvous.guidance.law import PHASES
 from smallsat.studies.rendezvous.inference.search import printed_steps
 from smallsat.studies.rendezvous.inference.summary import STRUCTURES, acceptable, identified
@@ -41,9 +39,9 @@ BETWEEN_SHARE, BETWEEN_M = 0.02, 0.02  # of a bound, and m, between samples
 TRUTH_DV = 0.05  # m/s that the nonlinear truth may change a phase by
 
 
-def _totals(results: Path) -> Any:
+def _totals(grounds: Grounds) -> Any:
     """Times, s, and delta-v of whole manoeuvres: a row a set, columns (quantity, case)."""
-    table = read_table(results / "ensemble.csv")
+    table = grounds.table("ensemble.csv")
     sums = table.groupby(["set", "case"])[["time_s", "delta_v_m_s"]].sum()
     done = table.groupby(["set", "case"])["ended"].all()
     return sums.where(done).unstack("case")
@@ -68,9 +66,9 @@ def _range(series: Any, digits: int = 1) -> str:
     return f"{series.min():.{digits}f} to {series.max():.{digits}f}"
 
 
-def six_thrusters_move_in_six_degrees(config: Config, results: Path) -> Judgement:
+def six_thrusters_move_in_six_degrees(grounds: Grounds) -> Judgement:
     """Thrusters only push: for every force and torque they must span six dimensions positively."""
-    count = config["rendezvous"]["spacecraft"]["thrusters"]
+    count = grounds.config["rendezvous"]["spacecraft"]["thrusters"]
     random = np.random.default_rng(0)
     reached = 0
     trials = 200
@@ -88,10 +86,10 @@ def six_thrusters_move_in_six_degrees(config: Config, results: Path) -> Judgemen
     )
 
 
-def one_norm_is_sparser(config: Config, results: Path) -> Judgement:
+def one_norm_is_sparser(grounds: Grounds) -> Judgement:
     """Shares of the far range's control components that are off."""
-    flights = read_table(results / "flights.parquet")
-    bound = config["rendezvous"]["phases"]["far"]["control_bound_m_s"]
+    flights = grounds.table("flights.parquet")
+    bound = grounds.config["rendezvous"]["phases"]["far"]["control_bound_m_s"]
     far = flights[flights["phase"] == "far"]
 
     def off(case: str) -> float:
@@ -109,9 +107,11 @@ def one_norm_is_sparser(config: Config, results: Path) -> Judgement:
     )
 
 
-def _largest(results: Path, constraint: str, motions: str, *places: str, case: str = "") -> float:
+def _largest(
+    grounds: Grounds, constraint: str, motions: str, *places: str, case: str = ""
+) -> float:
     """Largest violation of a constraint, over the cases (or one) and the motions of a kind."""
-    table = read_table(results / "constraints.csv")
+    table = grounds.table("constraints.csv")
     own = table[(table["constraint"] == constraint) & table["motion"].str.contains(motions)]
     own = own[own["flight"].str.contains(case)]
     if own.empty or own[list(places)].isna().all(axis=None):
@@ -119,12 +119,12 @@ def _largest(results: Path, constraint: str, motions: str, *places: str, case: s
     return float(own[list(places)].max().max())
 
 
-def keep_out_zone_is_kept(config: Config, results: Path) -> Judgement:
+def keep_out_zone_is_kept(grounds: Grounds) -> Judgement:
     """The deepest passage of the cases' far ranges, linear and nonlinear, between samples too."""
-    keep_out = law(config["rendezvous"], "v-bar").keep_out
-    linear = _largest(results, "keep out", "linear", "sample", "between")
-    impulses = _largest(results, "keep out", "impulses", "sample", "between")
-    burns = _largest(results, "keep out", "burns", "sample", "between")
+    keep_out = law(grounds.config["rendezvous"], "v-bar").keep_out
+    linear = _largest(grounds, "keep out", "linear", "sample", "between")
+    impulses = _largest(grounds, "keep out", "impulses", "sample", "between")
+    burns = _largest(grounds, "keep out", "burns", "sample", "between")
     worst = max(linear, impulses, burns)
     return judged(
         worst <= ZONE_SHARE * keep_out,
@@ -135,10 +135,10 @@ def keep_out_zone_is_kept(config: Config, results: Path) -> Judgement:
     )
 
 
-def cone_violated_slightly(config: Config, results: Path) -> Judgement:
+def cone_violated_slightly(grounds: Grounds) -> Judgement:
     """Largest distance outside the cone, m, at the samples of the three cases' mid ranges."""
     by_case = {
-        case: _largest(results, "cone penalty", "linear", "sample", case=case)
+        case: _largest(grounds, "cone penalty", "linear", "sample", case=case)
         for case in CASE_TABLES
     }
     text = ", ".join(f"{case}: {max(m, 0.0):.2f} m" for case, m in by_case.items())
@@ -150,28 +150,31 @@ def cone_violated_slightly(config: Config, results: Path) -> Judgement:
     )
 
 
-def r_bar_takes_less(config: Config, results: Path) -> Judgement:
+def r_bar_takes_less(grounds: Grounds) -> Judgement:
     """Time and delta-v of Case 2 below those of Case 1."""
-    totals = _totals(results)
+    totals = _totals(grounds)
     pairs = totals[[("time_s", "v-bar"), ("time_s", "r-bar")]]
     time = totals[("time_s", "v-bar")] - totals[("time_s", "r-bar")]
     fuel = totals[("delta_v_m_s", "v-bar")] - totals[("delta_v_m_s", "r-bar")]
     return _over_sets(
         _compared(pairs, (time > 0) & (fuel > 0)),
         f"it saves {_range(time, 0)} s and {_range(fuel, 2)} m/s; printed are "
-        f"{_printed('v-bar', 'time_s') - _printed('r-bar', 'time_s'):.0f} s and "
-        f"{_printed('v-bar', 'delta_v_m_s') - _printed('r-bar', 'delta_v_m_s'):.2f} m/s",
+        f"{_printed_less(grounds, 'time', 'v-bar', 'r-bar'):.0f} s and "
+        f"{_printed_less(grounds, 'total-delta-v', 'v-bar', 'r-bar'):.2f} m/s",
     )
 
 
-def _printed(case: str, quantity: str, phase: str = TOTAL) -> float:
-    cells = phase_cells().set_index(["case", "phase"])
-    return float(cells.loc[(case, phase), quantity])  # type: ignore[arg-type]
+def _printed(grounds: Grounds, case: str, quantity: str, phase: str = TOTAL) -> float:
+    return grounds.ledger.value(cell_id(quantity, case, phase)).value
 
 
-def rotating_is_comparable(config: Config, results: Path) -> Judgement:
+def _printed_less(grounds: Grounds, quantity: str, case: str, other: str) -> float:
+    return _printed(grounds, case, quantity) - _printed(grounds, other, quantity)
+
+
+def rotating_is_comparable(grounds: Grounds) -> Judgement:
     """Case 3's delta-v within a tenth of the interval between Cases 1 and 2."""
-    fuel = _totals(results)["delta_v_m_s"][["v-bar", "r-bar", "rotating"]]
+    fuel = _totals(grounds)["delta_v_m_s"][["v-bar", "r-bar", "rotating"]]
     low, high = fuel[["v-bar", "r-bar"]].min(axis=1), fuel[["v-bar", "r-bar"]].max(axis=1)
     inside = (fuel["rotating"] >= (1 - LITTLE) * low) & (fuel["rotating"] <= (1 + LITTLE) * high)
     return _over_sets(
@@ -181,14 +184,14 @@ def rotating_is_comparable(config: Config, results: Path) -> Judgement:
     )
 
 
-def difference_lies_close(config: Config, results: Path) -> Judgement:
+def difference_lies_close(grounds: Grounds) -> Judgement:
     """Where Case 3's delta-v differs most: printed, and with the acceptable sets."""
-    cells = phase_cells().set_index(["case", "phase"])["delta_v_m_s"].to_dict()
+    cells = phase_cells(grounds.ledger).set_index(["case", "phase"])["delta_v_m_s"].to_dict()
     printed = {
         other: {phase: cells["rotating", phase] - cells[other, phase] for phase in PHASES}
         for other in ("v-bar", "r-bar")
     }
-    table = read_table(results / "ensemble.csv")
+    table = grounds.table("ensemble.csv")
     fuel: Any = table.pivot(index="set", columns=["case", "phase"], values="delta_v_m_s")
     agree = pd.Series(True, index=fuel.index)
     for other in printed:
@@ -215,23 +218,23 @@ def difference_lies_close(config: Config, results: Path) -> Judgement:
     return _over_sets(agree.astype(object), f"printed: {text}")
 
 
-def rotation_adds_little(config: Config, results: Path) -> Judgement:
+def rotation_adds_little(grounds: Grounds) -> Judgement:
     """Case 3 against Case 1, the same approach to a target at rest."""
-    fuel = _totals(results)["delta_v_m_s"][["v-bar", "rotating"]]
+    fuel = _totals(grounds)["delta_v_m_s"][["v-bar", "rotating"]]
     added = fuel["rotating"] - fuel["v-bar"]
     return _over_sets(
         _compared(fuel, added < LITTLE * fuel["v-bar"]),
         f"the rotating target takes {_range(added, 2)} m/s more than Case 1; printed is "
-        f"{_printed('rotating', 'delta_v_m_s') - _printed('v-bar', 'delta_v_m_s'):+.2f} m/s. The "
+        f"{_printed_less(grounds, 'total-delta-v', 'rotating', 'v-bar'):+.2f} m/s. The "
         f"rotation rate is inferred too, and other rates were not printed",
     )
 
 
-def without_set_point_takes_longer(config: Config, results: Path) -> Judgement:
+def without_set_point_takes_longer(grounds: Grounds) -> Judgement:
     """By a factor of `MUCH` at least."""
-    time = _totals(results)["time_s"][["v-bar", "no-set-point"]]
+    time = _totals(grounds)["time_s"][["v-bar", "no-set-point"]]
     factor = time["no-set-point"] / time["v-bar"]
-    cells = total_cells().set_index("case")["time_min"]
+    cells = total_cells(grounds.ledger).set_index("case")["time_min"]
     return _over_sets(
         _compared(time, factor > MUCH),
         f"it takes {_range(factor, 2)} times as long; printed is "
@@ -239,10 +242,10 @@ def without_set_point_takes_longer(config: Config, results: Path) -> Judgement:
     )
 
 
-def guided_around_the_zone(config: Config, results: Path) -> Judgement:
+def guided_around_the_zone(grounds: Grounds) -> Judgement:
     """The angle that is flown near the zone, with and without set point."""
-    paths = read_table(results / "paths.parquet")
-    keep_out = law(config["rendezvous"], "v-bar").keep_out
+    paths = grounds.table("paths.parquet")
+    keep_out = law(grounds.config["rendezvous"], "v-bar").keep_out
 
     def turned_near(case: str) -> float:
         own = paths[(paths["flight"] == case) & (paths["phase"] == "far")]
@@ -265,9 +268,9 @@ def _way_around(flights: pd.DataFrame, case: str) -> tuple[float, bool]:
     return float(np.degrees(angle[-1] - angle[0])), bool((own["phase"] == "mid").any())
 
 
-def lp_takes_another_way(config: Config, results: Path) -> Judgement:
+def lp_takes_another_way(grounds: Grounds) -> Judgement:
     """Directions about the target, of the far ranges."""
-    flights = read_table(results / "flights.parquet")
+    flights = grounds.table("flights.parquet")
     quadratic, _ = _way_around(flights, "v-bar")
     linear, reached = _way_around(flights, "lp")
     text = f"about the target the QP turns by {quadratic:+.0f} deg, the LP by {linear:+.0f} deg"
@@ -276,14 +279,14 @@ def lp_takes_another_way(config: Config, results: Path) -> Judgement:
     return judged(quadratic * linear < 0.0, text)
 
 
-def lp_saves_fuel(config: Config, results: Path) -> Judgement:
+def lp_saves_fuel(grounds: Grounds) -> Judgement:
     """Over the acceptable sets, with the LP weights of the configuration."""
-    totals = _totals(results)
+    totals = _totals(grounds)
     fuel = totals["delta_v_m_s"].reindex(columns=["v-bar", "lp", "no-set-point"])
     time = totals["time_s"].reindex(columns=["v-bar", "lp"])
     agree = (fuel["lp"] < fuel["v-bar"]) & (time["lp"] > time["v-bar"])
-    cells = total_cells().set_index("case")["delta_v_m_s"]
-    variants = read_table(results / "lp-variants.csv")
+    cells = total_cells(grounds.ledger).set_index("case")["delta_v_m_s"]
+    variants = grounds.table("lp-variants.csv")
     docked = variants[variants["docked"]]
     return _over_sets(
         _compared(time, agree),
@@ -294,34 +297,28 @@ def lp_saves_fuel(config: Config, results: Path) -> Judgement:
     )
 
 
-def totals_add_up(config: Config, results: Path) -> Judgement:
+def totals_add_up(grounds: Grounds) -> Judgement:
     """Sums over the printed tables, to half a unit of each rounded term."""
-    cells = phase_cells()
+    cells = phase_cells(grounds.ledger)
     worst = {}
     for quantity in ("delta_v_m_s", "time_s"):
         table = cells.pivot(index="case", columns="phase", values=quantity)
         worst[quantity] = float((table[list(PHASES)].sum(axis=1) - table[TOTAL]).abs().max())
-    repeated = total_cells().set_index("case").loc["v-bar"]
-    minutes = abs(_printed("v-bar", "time_s") / 60.0 - repeated["time_min"])
-    same = repeated["delta_v_m_s"] == _printed("v-bar", "delta_v_m_s")
-    text = value("section-3-6-1/total-delta-v/case-1-v-bar") == repeated["delta_v_m_s"]
+    repeated = total_cells(grounds.ledger).set_index("case").loc["v-bar"]
+    minutes = abs(_printed(grounds, "v-bar", "time") / 60.0 - repeated["time_min"])
+    text = grounds.ledger.value("section-3-6-1/total-delta-v/case-1-v-bar").value
+    same = repeated["delta_v_m_s"] == text == _printed(grounds, "v-bar", "total-delta-v")
     return judged(
-        bool(
-            worst["delta_v_m_s"] < 1e-9
-            and worst["time_s"] < 1e-9
-            and minutes < 0.005
-            and same
-            and text
-        ),
+        bool(worst["delta_v_m_s"] < 1e-9 and worst["time_s"] < 1e-9 and minutes < 0.005 and same),
         f"phases miss their totals by at most {worst['delta_v_m_s']:.0e} m/s and "
         f"{worst['time_s']:.0e} s; Case 1's row of Table 3.6 differs by {minutes:.3f} min",
     )
 
 
-def times_are_whole_samples(config: Config, results: Path) -> Judgement:
+def times_are_whole_samples(grounds: Grounds) -> Judgement:
     """The remainders of the printed times."""
-    section = config["rendezvous"]
-    cells = phase_cells()
+    section = grounds.config["rendezvous"]
+    cells = phase_cells(grounds.ledger)
     cells = cells[cells["phase"].isin(PHASES)]
     missing = {
         (row["case"], row["phase"]): -row["time_s"]
@@ -329,7 +326,7 @@ def times_are_whole_samples(config: Config, results: Path) -> Judgement:
         for row in cells.to_dict("records")
     }
     expected = {key: FIRST_SECOND if key[1] == "far" else 0.0 for key in missing}
-    steps = printed_steps(section)
+    steps = printed_steps(section, grounds.ledger)
     return judged(
         missing == expected,
         "steps of the far, mid and final phases: "
@@ -342,14 +339,14 @@ def times_are_whole_samples(config: Config, results: Path) -> Judgement:
     )
 
 
-def velocity_is_of_a_stable_ellipse(config: Config, results: Path) -> Judgement:
+def velocity_is_of_a_stable_ellipse(grounds: Grounds) -> Judgement:
     """Vx = n y / 2 and vy = -2 n x: an interval of the mean motion from each rounded component."""
-    x, y, _, vx, vy, _ = start_state(config["rendezvous"])
+    x, y, _, vx, vy, _ = start_state(grounds.config["rendezvous"])
     half = 0.005
     from_x = sorted(2.0 * (vx + sign * half) / y for sign in (-1, 1))
     from_y = sorted(-(vy + sign * half) / (2.0 * x) for sign in (-1, 1))
     low, high = max(from_x[0], from_y[0]), min(from_x[1], from_y[1])
-    ours = config["rendezvous"]["inferred"]["mean_motion_rad_s"]
+    ours = grounds.config["rendezvous"]["inferred"]["mean_motion_rad_s"]
     mu, radius = 398600.4418e9, 6378137.0
     heights = [((mu / n**2) ** (1 / 3) - radius) / 1000.0 for n in (high, low)]
     return judged(
@@ -359,15 +356,15 @@ def velocity_is_of_a_stable_ellipse(config: Config, results: Path) -> Judgement:
     )
 
 
-def delta_v_is_no_sum_of_plane_lengths(config: Config, results: Path) -> Judgement:
+def delta_v_is_no_sum_of_plane_lengths(grounds: Grounds) -> Judgement:
     """Printed far ranges against what so many steps can give by the length of (x, y)."""
-    section = config["rendezvous"]
+    section = grounds.config["rendezvous"]
     bound = section["phases"]["far"]["control_bound_m_s"]
-    steps = printed_steps(section)
+    steps = printed_steps(section, grounds.ledger)
     most = {case: steps[case, "far"] * np.sqrt(2.0) * bound for case in CASE_TABLES}
-    printed = {case: _printed(case, "delta_v_m_s", "far") for case in CASE_TABLES}
+    printed = {case: _printed(grounds, case, "total-delta-v", "far") for case in CASE_TABLES}
     over = [case for case in CASE_TABLES if printed[case] > most[case]]
-    table = read_table(results / "readings.csv")
+    table = grounds.table("readings.csv")
     sums = table[table["question"] == "delta_v"].set_index("reading")["misfit"]
     return judged(
         len(over) > 0,
@@ -381,9 +378,9 @@ def delta_v_is_no_sum_of_plane_lengths(config: Config, results: Path) -> Judgeme
     )
 
 
-def truth_changes_no_step_count(config: Config, results: Path) -> Judgement:
+def truth_changes_no_step_count(grounds: Grounds) -> Judgement:
     """The cases flown anew in the nonlinear model, by impulses as the guidance assumes them."""
-    table = read_table(results / "truth.csv")
+    table = grounds.table("truth.csv")
     counts = {}
     for model, own in table.groupby("model"):
         changed = float((own["delta_v_m_s"] - own["delta_v_linear_m_s"]).abs().max())
@@ -398,10 +395,10 @@ def truth_changes_no_step_count(config: Config, results: Path) -> Judgement:
     )
 
 
-def constraints_hold_between_samples(config: Config, results: Path) -> Judgement:
+def constraints_hold_between_samples(grounds: Grounds) -> Judgement:
     """Bounds at every sample; docking speed and cone between samples once nothing is softened."""
-    section = config["rendezvous"]
-    flights, paths = read_table(results / "flights.parquet"), read_table(results / "paths.parquet")
+    section = grounds.config["rendezvous"]
+    flights, paths = grounds.table("flights.parquet"), grounds.table("paths.parquet")
     faces, axis = np.empty((4, 3)), np.empty(3)
     control, speed, cone = 0.0, 0.0, 0.0
     for case in CASE_TABLES:
@@ -432,15 +429,15 @@ def constraints_hold_between_samples(config: Config, results: Path) -> Judgement
     )
 
 
-def inference_is_underdetermined(config: Config, results: Path) -> Judgement:
+def inference_is_underdetermined(grounds: Grounds) -> Judgement:
     """Parameters that the acceptable sets leave open."""
-    section = config["rendezvous"]
-    evaluated = read_table(results / "inference.parquet")
+    section = grounds.config["rendezvous"]
+    evaluated = grounds.table("inference.parquet")
     table = identified(section, evaluated)
     sets = acceptable(section, evaluated)
     fixed = table[table["verdict"] == "identified"]["parameter"].to_list()
     loose = table[table["verdict"] == "loosely identified"]["parameter"].to_list()
-    cells = len(read_table(results / "residuals.csv"))
+    cells = len(grounds.table("residuals.csv"))
     return judged(
         len(fixed) < len(table),
         f"{len(table)} numbers and {len(STRUCTURES)} readings for {cells} cells. Over {len(sets)} "

@@ -4,53 +4,50 @@ The signature is that of `smallsat.evidence.errata.ProofFunction`: the whole con
 folder with the study's results.
 """
 
-from pathlib import Path
-
 import numpy as np
 
-from smallsat.config import Config
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
 from smallsat.evidence.errata import Proof
-from smallsat.results import read_table
-from smallsat.studies.rendezvous.evidence.printed import CASE_TABLES
+from smallsat.evidence.grounds import Grounds
+from smallsat.studies.rendezvous.evidence.case_tables import CASE_TABLES
+from smallsat.studies.rendezvous.inference.search import printed_steps
 from smallsat.studies.rendezvous.model.geometry import cone_faces, rotated
 from smallsat.studies.rendezvous.model.prediction import terminal_weight, transition
 from smallsat.studies.rendezvous.parameters import law, start_state
 
-# Printed literals that a proof confronts with what is computed.
-PRINTED_BOUNDS = {"far": 0.1786, "mid": 0.1786, "final": 0.0357}  # Table 3.1
-PRINTED_FAR_STEPS = 33  # Table 3.4: the fewest steps of a far range to a target at rest
-PRINTED_DISTANCE_KM = (1.7, 0.05)  # Section 3.6, and half a unit of its last digit
-PRINTED_THRUST_N = 1.0  # Chapter 1
-HALF_UNIT = 0.00005  # of the printed bounds
-
 ROUNDING = 1e-9
 
 
-def control_bound_unit(config: Config, results: Path) -> Proof:
+def control_bound_unit(grounds: Grounds) -> Proof:
     """Table 3.1: the bounds are impulses over mass; as accelerations they would end too soon."""
-    section = config["rendezvous"]
+    section = grounds.config["rendezvous"]
     craft = section["spacecraft"]
     push = craft["thruster_N"] / craft["mass_kg"]
-    pulses = {phase: bound / push for phase, bound in PRINTED_BOUNDS.items()}
+    bounds = [
+        grounds.ledger.value(f"table-3-1/u-max/{phase}")
+        for phase in ("far-range", "mid-range", "close-range")
+    ]
+    pulses = [bound.value / push for bound in bounds]
     whole = all(
-        round(pulse) >= 1 and abs(push * round(pulse) - PRINTED_BOUNDS[phase]) <= HALF_UNIT
-        for phase, pulse in pulses.items()
+        round(pulse) >= 1 and bound.matches(push * round(pulse))
+        for bound, pulse in zip(bounds, pulses, strict=True)
     )
     # Rest to rest over the printed start distance along one axis at full control: 2 sqrt(d / a).
     distance = float(np.linalg.norm(start_state(section)[:3]))
     sample = section["phases"]["far"]["sample_time_s"]
-    steps = 2.0 * np.sqrt(distance / PRINTED_BOUNDS["far"]) / sample
-    impulse_steps = 2.0 * np.sqrt(distance * sample / PRINTED_BOUNDS["far"]) / sample
-    needed = PRINTED_BOUNDS["far"] / push
+    steps = 2.0 * np.sqrt(distance / bounds[0].value) / sample
+    impulse_steps = 2.0 * np.sqrt(distance * sample / bounds[0].value) / sample
+    # The fewest steps of a far range to a target at rest.
+    printed = printed_steps(section, grounds.ledger)
+    fewest = min(printed[case, "far"] for case in ("v-bar", "r-bar"))
     return Proof(
-        holds=bool(whole and needed > 1.0 and steps < PRINTED_FAR_STEPS / 2 < impulse_steps),
+        holds=bool(whole and pulses[0] > 1.0 and steps < fewest / 2 < impulse_steps),
         as_printed=f"{distance:.0f} m in {np.ceil(steps):.0f} far-range steps",
-        as_corrected=f"in {np.ceil(impulse_steps):.0f} steps; printed are {PRINTED_FAR_STEPS}",
+        as_corrected=f"in {np.ceil(impulse_steps):.0f} steps; printed are {fewest}",
         statement=(
             f"A thruster of {craft['thruster_N']:g} N gives {craft['mass_kg']:g} kg at most "
             f"{push:.4f} m/s^2; the bounds are that times "
-            f"{', '.join(f'{pulses[p]:.2f}' for p in ('far', 'mid', 'final'))} s, whole seconds to "
+            f"{', '.join(f'{pulse:.2f}' for pulse in pulses)} s, whole seconds to "
             f"the printed digits. Held as accelerations they would bring the chaser over the start "
             f"distance and to rest in {np.ceil(steps):.0f} steps, and five times the thrust at "
             f"hand would be needed"
@@ -58,39 +55,44 @@ def control_bound_unit(config: Config, results: Path) -> Proof:
     )
 
 
-def initial_distance(config: Config, results: Path) -> Proof:
+def initial_distance(grounds: Grounds) -> Proof:
     """Section 3.6 against Table 3.2."""
-    distance = float(np.linalg.norm(start_state(config["rendezvous"])[:3])) / 1000.0
-    printed, half_unit = PRINTED_DISTANCE_KM
+    distance = float(np.linalg.norm(start_state(grounds.config["rendezvous"])[:3])) / 1000.0
+    printed = grounds.ledger.value("section-3-6/initial-chaser-distance/all-cases")
     return Proof(
-        holds=abs(distance - printed) > half_unit,
-        as_printed=f"{printed:g} km",
+        holds=not printed.matches(distance),
+        as_printed=f"{printed.value:g} km",
         as_corrected=f"{distance:.3f} km",
         statement=f"The position of Table 3.2 has the length {1000.0 * distance:.1f} m",
+        correct=distance,
     )
 
 
-def thrust_as_delta_v(config: Config, results: Path) -> Proof:
+def thrust_as_delta_v(grounds: Grounds) -> Proof:
     """Chapter 1: the printed bound holds for the thrust, and the delta-v has another unit."""
-    craft = config["rendezvous"]["spacecraft"]
-    bound = max(phase["control_bound_m_s"] for phase in config["rendezvous"]["phases"].values())
+    craft = grounds.config["rendezvous"]["spacecraft"]
+    bound = max(
+        phase["control_bound_m_s"] for phase in grounds.config["rendezvous"]["phases"].values()
+    )
     seconds = bound * craft["mass_kg"] / craft["thruster_N"]
+    name = "chapter-1/maximum-thrust-order-of-small-satellite-propulsion/background"
+    printed = grounds.ledger.value(name)
     return Proof(
-        holds=bool(craft["thruster_N"] < PRINTED_THRUST_N and abs(seconds - 1.0) > 0.5),
+        holds=bool(printed.matches(craft["thruster_N"]) and abs(seconds - 1.0) > 0.5),
         as_printed="a delta-v in newtons",
-        as_corrected=f"a thrust: {craft['thruster_N']:g} N < {PRINTED_THRUST_N:g} N",
+        as_corrected=f"a thrust: {craft['thruster_N']:g} N < {printed.value:g} N",
         statement=(
             f"Thrust and delta-v differ by a time over the mass: the largest delta-v of a step is "
             f"{bound:g} m/s, {seconds:.0f} s of {craft['thruster_N']:g} N on "
             f"{craft['mass_kg']:g} kg; Section 2.1.2 cites the same source for thrusts up to "
-            f"{PRINTED_THRUST_N:g} N"
+            f"{printed.value:g} N"
         ),
     )
 
 
-def port_axis(config: Config, results: Path) -> Proof:
+def port_axis(grounds: Grounds) -> Proof:
     """Table 3.2: the port's direction in the body against the approach axis of Case 1."""
-    section = config["rendezvous"]
+    section = grounds.config["rendezvous"]
     port = np.array(section["port_m"], dtype=float)
     axis = np.array(law(section, "v-bar").axis)
     cosine = port @ axis / np.linalg.norm(port) / np.linalg.norm(axis)
@@ -109,10 +111,10 @@ def port_axis(config: Config, results: Path) -> Proof:
     )
 
 
-def on_time(config: Config, results: Path) -> Proof:
+def on_time(grounds: Grounds) -> Proof:
     """Eq. 2.5: the impulse of the printed on-time against the one that was asked for."""
-    craft = config["rendezvous"]["spacecraft"]
-    phase = config["rendezvous"]["phases"]["far"]
+    craft = grounds.config["rendezvous"]["spacecraft"]
+    phase = grounds.config["rendezvous"]["phases"]["far"]
     sample, delta_v = phase["sample_time_s"], phase["control_bound_m_s"]
     mass, thrust = craft["mass_kg"], craft["thruster_N"]
     force = mass * delta_v / sample  # "F dt = m dv"
@@ -132,9 +134,9 @@ def on_time(config: Config, results: Path) -> Proof:
     )
 
 
-def last_state_twice(config: Config, results: Path) -> Proof:
+def last_state_twice(grounds: Grounds) -> Proof:
     """Eq. 2.12: only the sum to N - 1 makes the Riccati weight stand for the infinite rest."""
-    section = config["rendezvous"]
+    section = grounds.config["rendezvous"]
     given = law(section, "v-bar")
     # The final phase, whose heavy control weight leaves much to do after its horizon.
     matrix = transition(rate_matrix(given.mean_motion), given.sample_times[2])
@@ -172,9 +174,9 @@ def printed_stage_cost(command: np.ndarray, weight: float) -> float:
     return float(np.abs(weight * command).sum())
 
 
-def quadratic_stage_cost(config: Config, results: Path) -> Proof:
+def quadratic_stage_cost(grounds: Grounds) -> Proof:
     """Eq. 2.11b: a quadratic form has the same curvature everywhere, a norm none off its kinks."""
-    weight = config["rendezvous"]["phases"]["far"]["control_weight"]
+    weight = grounds.config["rendezvous"]["phases"]["far"]["control_weight"]
     command, direction = np.array([0.1, -0.2, 0.3]), np.array([0.5, 0.4, -0.7])
     step = 0.01
 
@@ -197,9 +199,9 @@ def quadratic_stage_cost(config: Config, results: Path) -> Proof:
     )
 
 
-def docking_cone_apex(config: Config, results: Path) -> Proof:
+def docking_cone_apex(grounds: Grounds) -> Proof:
     """Eqs. 3.12 and 3.14: a chaser at the port, over the horizon of the rotating case."""
-    section = config["rendezvous"]
+    section = grounds.config["rendezvous"]
     given = law(section, "rotating")
     axis, last, faces = np.empty(3), np.empty(3), np.empty((4, 3))
     tangent = np.tan(given.cone_angles[2])
@@ -226,10 +228,10 @@ def docking_cone_apex(config: Config, results: Path) -> Proof:
     )
 
 
-def rendezvous_end_distance(config: Config, results: Path) -> Proof:
+def rendezvous_end_distance(grounds: Grounds) -> Proof:
     """Algorithm 1: the end as printed never comes, for the keep-out constraint forbids it."""
-    keep_out = law(config["rendezvous"], "v-bar").keep_out
-    flights = read_table(results / "flights.parquet")
+    keep_out = law(grounds.config["rendezvous"], "v-bar").keep_out
+    flights = grounds.table("flights.parquet")
     far = flights[(flights["flight"] == "v-bar") & (flights["phase"] == "far")]
     distance = np.linalg.norm(far[["x_m", "y_m", "z_m"]].to_numpy(), axis=1)
     ends = flights[(flights["flight"] == "v-bar") & (flights["phase"] == "mid")].iloc[0]
@@ -247,13 +249,13 @@ def rendezvous_end_distance(config: Config, results: Path) -> Proof:
     )
 
 
-def rendezvous_end_cone(config: Config, results: Path) -> Proof:
+def rendezvous_end_cone(grounds: Grounds) -> Proof:
     """Algorithm 1: x <= Hx compares three entries with four; Hx <= 0 is the cone."""
-    section = config["rendezvous"]
+    section = grounds.config["rendezvous"]
     given = law(section, "v-bar")
     faces = np.empty((section["cone_faces"], 3))
     cone_faces(np.array(given.axis), np.tan(given.cone_angles[0]), faces)
-    flights = read_table(results / "flights.parquet")
+    flights = grounds.table("flights.parquet")
     mid = flights[(flights["flight"] == "v-bar") & (flights["phase"] == "mid")].iloc[0]
     end = mid[["x_m", "y_m", "z_m"]].to_numpy(dtype=float)
     start = start_state(section)[:3]
@@ -270,10 +272,10 @@ def rendezvous_end_cone(config: Config, results: Path) -> Proof:
     )
 
 
-def approach_end_vector(config: Config, results: Path) -> Proof:
+def approach_end_vector(grounds: Grounds) -> Proof:
     """Algorithm 1: x <= r2 by components is true far away, on the other side of the target."""
-    overshoot = law(config["rendezvous"], "v-bar").overshoot
-    flights = read_table(results / "flights.parquet")
+    overshoot = law(grounds.config["rendezvous"], "v-bar").overshoot
+    flights = grounds.table("flights.parquet")
     mid = flights[flights["flight"].isin(CASE_TABLES) & (flights["phase"] == "mid")]
     # The motion is linear: mirrored at the target, a flight is one to a port on the other side.
     mirrored = -mid[["x_m", "y_m", "z_m"]].to_numpy()

@@ -3,7 +3,7 @@
 import numpy as np
 
 from smallsat.config import Config
-from smallsat.studies.rendezvous.evidence.printed import CASE_TABLES, COMPARED
+from smallsat.studies.rendezvous.evidence.case_tables import CASE_TABLES, COMPARED
 from smallsat.studies.rendezvous.guidance.law import PHASES
 from smallsat.studies.rendezvous.parameters import start_state
 

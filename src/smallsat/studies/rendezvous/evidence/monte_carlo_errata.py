@@ -4,15 +4,10 @@ Some are contradictions of the document with itself: those are read off the ledg
 others are decided by what the manoeuvres of our studies do, and could come out otherwise.
 """
 
-from pathlib import Path
-
 import numpy as np
 
-from smallsat.config import Config
 from smallsat.evidence.errata import Proof
-from smallsat.evidence.ledger import read_artefacts
-from smallsat.results import read_table
-from smallsat.studies.rendezvous.evidence.printed import ARTEFACTS, value, value_list
+from smallsat.evidence.grounds import Grounds
 from smallsat.studies.rendezvous.evidence.sensitivity_claims import (
     DELTA_V,
     SIMILAR,
@@ -28,12 +23,12 @@ SMALL_SAVING = "section-4-2/interval-with-small-delta-v-difference/diminishing-r
 INTERVALS = "number-of-control-intervals-label-printed-approach"
 
 
-def sample_time_subscript(config: Config, results: Path) -> Proof:
+def sample_time_subscript(grounds: Grounds) -> Proof:
     """Which phase was tested with the sample time, by the document's own lists."""
-    slipped = value(SMALL_SAVING)
+    slipped = grounds.ledger.value(SMALL_SAVING).value
     lists = {
-        "Ts,1": value_list("section-4-2/rendezvous-sample-times-tested"),
-        "Ts,2": value_list("section-4-3/approach-sample-times-tested"),
+        "Ts,1": _values(grounds, "section-4-2/rendezvous-sample-times-tested"),
+        "Ts,2": _values(grounds, "section-4-3/approach-sample-times-tested"),
     }
     tested = [name for name, times in lists.items() if slipped in times]
     return Proof(
@@ -42,16 +37,17 @@ def sample_time_subscript(config: Config, results: Path) -> Proof:
         f"Ts,1 of {_list(lists['Ts,1'])} s",
         f"{slipped:g} s is printed among the tested values of {' and '.join(tested)} only: "
         f"{BY_ITSELF}",
+        f"{' and '.join(tested)} = {slipped:g} s",
     )
 
 
-def approach_figures_swapped(config: Config, results: Path) -> Proof:
+def approach_figures_swapped(grounds: Grounds) -> Proof:
     """Which horizon makes the sample time infeasible that the legend of Figure 4.7 lacks."""
-    legend = value_list("figure-4-7-a/legend-ts2/n2-5")
-    times = value_list("section-4-3/approach-sample-times-tested")
+    legend = _values(grounds, "figure-4-7-a/legend-ts2/n2-5")
+    times = _values(grounds, "section-4-3/approach-sample-times-tested")
     missing = [t for t in times if t not in legend]
-    called_infeasible = value("section-4-3/infeasible-sample-time/n2-5")
-    sweep = Sweep(config, results, "approach")
+    called_infeasible = grounds.ledger.value("section-4-3/infeasible-sample-time/n2-5").value
+    sweep = Sweep(grounds.config, grounds.results, "approach")
     shares = {
         n: float(infeasible_share(sweep.rows(n, called_infeasible), "approach").mean())
         for n in sweep.horizons[:2]
@@ -68,27 +64,30 @@ def approach_figures_swapped(config: Config, results: Path) -> Proof:
     )
 
 
-def docking_horizons(config: Config, results: Path) -> Proof:
+def docking_horizons(grounds: Grounds) -> Proof:
     """The horizon of a caption, in the text's list and in that of Section 6.2."""
-    caption = value("figure-4-12-caption/docking-prediction-horizon-n3")
-    text = value_list("section-4-4/docking-prediction-horizons-n3-tested")
-    later = value_list("section-6-2/docking-horizons-n3-benchmarked")
+    caption = grounds.ledger.value("figure-4-12-caption/docking-prediction-horizon-n3").value
+    text = _values(grounds, "section-4-4/docking-prediction-horizons-n3-tested")
+    later = _values(grounds, "section-6-2/docking-horizons-n3-benchmarked")
     return Proof(
         caption not in text and caption in later,
         f"no figure for N3 = {caption:g}",
         f"a figure for each of N3 = {_list(later)}",
         f"the caption of Figure 4.12 has N3 = {caption:g}, which Section 4.4 does not list and "
         f"Section 6.2 does: {BY_ITSELF}",
+        f"N3 = {_list(later)}",
     )
 
 
-def docking_axis_label(config: Config, results: Path) -> Proof:
+def docking_axis_label(grounds: Grounds) -> Proof:
     """Numbers of actuations and delta-v that the axes must show, in either phase."""
-    end = value(f"figure-4-10-b/x-axis-tick-range-{INTERVALS}/n3-5/max")
-    delta_v = value("figure-4-10-b/y-axis-tick-range-docking-delta-v/n3-5/max")
+    end, delta_v = (
+        grounds.ledger.value(f"figure-4-10-b/{axis}/n3-5/max").value
+        for axis in (f"x-axis-tick-range-{INTERVALS}", "y-axis-tick-range-docking-delta-v")
+    )
     most, largest = {}, {}
     for phase in ("approach", "docking"):
-        sweep = Sweep(config, results, phase)
+        sweep = Sweep(grounds.config, grounds.results, phase)
         most[phase] = _largest(sweep, "steps")
         largest[phase] = _largest(sweep, DELTA_V)
     return Proof(
@@ -111,15 +110,10 @@ def _largest(sweep: Sweep, quantity: str) -> float:
     )
 
 
-def appendix_caption(config: Config, results: Path) -> Proof:
+def appendix_caption(grounds: Grounds) -> Proof:
     """Two figures of one caption in sections of two variants, and whether these look alike."""
-    captions = {
-        row["id"]: row["caption"]
-        for row in read_artefacts(ARTEFACTS)
-        if row["document"] == "rendezvous"
-    }
-    same = captions["Figure A.3"] == captions["Figure A.6"]
-    table = read_table(results / "studies/domain.parquet")
+    same = grounds.captions["Figure A.3"] == grounds.captions["Figure A.6"]
+    table = grounds.table("studies/domain.parquet")
     one, other = (
         table[(table["case"] == case) & table["completed"]].set_index("sample")
         for case in (NO_SET_POINT, LP)
@@ -144,5 +138,9 @@ def appendix_caption(config: Config, results: Path) -> Proof:
     )
 
 
-def _list(values) -> str:
+def _values(grounds: Grounds, place: str) -> list[float]:
+    return [one.value for one in grounds.ledger.values(place)]
+
+
+def _list(values: list[float]) -> str:
     return ", ".join(f"{value:g}" for value in values)

@@ -11,7 +11,7 @@ from smallsat.config import Config
 from smallsat.evidence.not_converged import NotConverged
 from smallsat.evidence.observation import Observation
 from smallsat.results import read_table
-from smallsat.studies.rendezvous.evidence.printed import (
+from smallsat.studies.rendezvous.evidence.case_tables import (
     CASE_TABLES,
     COMPARED,
     MINUTE,
@@ -90,8 +90,12 @@ def _cases(section: Config, results: Path) -> Iterator[Observation]:
         for phase in (*PHASES, TOTAL):
             row = cells.loc[(case, phase)]
             said = note if row.notna().all() else "not converged: the phase does not end"
-            yield Observation(cell_id("total-delta-v", case, phase), row["delta_v_m_s"], note=said)
-            yield Observation(cell_id("time", case, phase), row["time_s"], note=said)
+            yield Observation(
+                f"rendezvous/{cell_id('total-delta-v', case, phase)}", row["delta_v_m_s"], note=said
+            )
+            yield Observation(
+                f"rendezvous/{cell_id('time', case, phase)}", row["time_s"], note=said
+            )
     where = "rendezvous/section-3-6-1"
     first = cells.loc[("v-bar", TOTAL)]
     yield Observation(f"{where}/maneuver-time/case-1-v-bar", first["time_s"] / MINUTE)

@@ -12,6 +12,8 @@ import pandas as pd
 from smallsat.config import Config
 from smallsat.evidence.claims import Judgement, judged
 from smallsat.evidence.effects import above, judgement
+from smallsat.evidence.grounds import Grounds
+from smallsat.evidence.ledger import Ledger
 from smallsat.results import read_table
 from smallsat.statistics.bootstrap import Effect, effect
 from smallsat.studies.rendezvous.evidence.sensitivity_claims import bootstrap, median, negative
@@ -31,8 +33,6 @@ BOUNCING = 2.0  # docking takes this many times the undisturbed time
 CONSIDERABLY = 0.25
 ROBUST = 0.95  # share of the manoeuvres that end within the limit
 CLOSE = 0.25
-# Of Section 5.4.
-PRINTED_DELTA_V_M_S, PRINTED_TIME_MIN = 4.25, 19.536
 
 DELTA_V, TIME = "delta_v_m_s", "time_s"
 WORDS = {DELTA_V: "delta-v", TIME: "time"}
@@ -59,15 +59,15 @@ def by_state(results: Path, case: str) -> pd.DataFrame:
     return means
 
 
-def _two(results: Path, first: str, second: str) -> tuple[pd.DataFrame, pd.DataFrame]:
-    a, b = by_state(results, first), by_state(results, second)
+def _two(grounds: Grounds, first: str, second: str) -> tuple[pd.DataFrame, pd.DataFrame]:
+    a, b = by_state(grounds.results, first), by_state(grounds.results, second)
     common = a.index.intersection(b.index)
     return a.loc[common], b.loc[common]
 
 
-def increase_comes_from_docking(config: Config, results: Path) -> Judgement:
+def increase_comes_from_docking(grounds: Grounds) -> Judgement:
     """Section 5.4: share of the docking phase in what the disturbances add."""
-    calm, noisy = _two(results, UNDISTURBED, AS_DOCUMENTED)
+    calm, noisy = _two(grounds, UNDISTURBED, AS_DOCUMENTED)
     found = []
     for quantity in (DELTA_V, TIME):
         whole = (noisy[quantity] - calm[quantity]).to_numpy()
@@ -76,36 +76,36 @@ def increase_comes_from_docking(config: Config, results: Path) -> Judgement:
         def share(drawn: np.ndarray, part=part, whole=whole) -> np.ndarray:
             return part[drawn].sum(axis=1) / whole[drawn].sum(axis=1)
 
-        found.append(effect(WORDS[quantity], share, len(whole), bootstrap(config), 2))
+        found.append(effect(WORDS[quantity], share, len(whole), bootstrap(grounds.config), 2))
     return judgement(above(found, 0.5), "share of docking in the increase, to be above half", found)
 
 
-def chaser_bounces(config: Config, results: Path) -> Judgement:
+def chaser_bounces(grounds: Grounds) -> Judgement:
     """Section 5.4: time of docking against that without disturbances."""
-    calm, noisy = _two(results, UNDISTURBED, AS_DOCUMENTED)
+    calm, noisy = _two(grounds, UNDISTURBED, AS_DOCUMENTED)
     ratio = (noisy["docking_time_s"] / calm["docking_time_s"]).to_numpy()
-    found = [effect("ratio", median(ratio), len(ratio), bootstrap(config))]
+    found = [effect("ratio", median(ratio), len(ratio), bootstrap(grounds.config))]
     return judgement(
         above(found, BOUNCING), "median ratio of docking times, to be above two", found
     )
 
 
-def guidance_is_robust(config: Config, results: Path) -> Judgement:
+def guidance_is_robust(grounds: Grounds) -> Judgement:
     """Chapters 5 and 7: share of the disturbed manoeuvres that end within the limit."""
-    done = by_state(results, AS_DOCUMENTED)["completed"].to_numpy()
-    found = [effect("share", lambda i: done[i].mean(axis=1), len(done), bootstrap(config))]
+    done = by_state(grounds.results, AS_DOCUMENTED)["completed"].to_numpy()
+    found = [effect("share", lambda i: done[i].mean(axis=1), len(done), bootstrap(grounds.config))]
     return judgement(above(found, ROBUST), "share that docks within the limit, to be 95 %", found)
 
 
-def filter_reduces_bounce(config: Config, results: Path) -> Judgement:
+def filter_reduces_bounce(grounds: Grounds) -> Judgement:
     """Section 5.5: delta-v and time with a filter against raw measurements."""
-    raw, filtered = _two(results, AS_DOCUMENTED, FILTERED)
+    raw, filtered = _two(grounds, AS_DOCUMENTED, FILTERED)
     found = [
         effect(
             WORDS[q],
             median((filtered[q] / raw[q] - 1.0).to_numpy()),
             len(raw),
-            bootstrap(config),
+            bootstrap(grounds.config),
             2,
         )
         for q in (DELTA_V, TIME)
@@ -123,10 +123,10 @@ def mean_deviation(config: Config, results: Path, case: str, quantity: str) -> E
     return effect(WORDS[quantity], lambda i: found[i].mean(axis=1), len(found), bootstrap(config))
 
 
-def prediction_with_j2_helps(config: Config, results: Path) -> Judgement:
+def prediction_with_j2_helps(grounds: Grounds) -> Judgement:
     """Section 3.7: delta-v with J2 in the prediction against without, over inclinations."""
-    table = read_table(results / "studies/prediction.parquet")
-    inclinations = config["rendezvous"]["studies"]["prediction"]["inclinations_deg"]
+    table = grounds.table("studies/prediction.parquet")
+    inclinations = grounds.config["rendezvous"]["studies"]["prediction"]["inclinations_deg"]
     found = []
     for inclination in inclinations:
         without, with_j2 = (
@@ -137,19 +137,28 @@ def prediction_with_j2_helps(config: Config, results: Path) -> Judgement:
         a, b = (totals(rows[both], DELTA_V).to_numpy() for rows in (without, with_j2))
         name = f"delta-v, {inclination:g} deg"
         found.append(
-            effect(name, median(b / a - 1.0), len(a), bootstrap(config), len(inclinations))
+            effect(name, median(b / a - 1.0), len(a), bootstrap(grounds.config), len(inclinations))
         )
     return judgement(above(negative(found)), "median change, to be a drop", found)
 
 
-def one_distance_gives_both_deviations(config: Config, results: Path) -> Judgement:
+def printed_deviations(ledger: Ledger) -> dict[str, float]:
+    """The printed mean deviations of Section 5.4, by the columns of the bounces."""
+    place = "section-5-4/average-standard-deviation-of"
+    return {
+        "deviation_delta_v_m_s": ledger.value(f"{place}-delta-v/monte-carlo").value,
+        "deviation_time_min": ledger.value(f"{place}-tf/monte-carlo").value,
+    }
+
+
+def one_distance_gives_both_deviations(grounds: Grounds) -> Judgement:
     """Our own: the docking distance that gives one printed deviation gives the other one too.
 
     At the document's time limit, between the distances of the passages; written after the first
     runs had been seen.
     """
-    table = bounce(results / "studies")
-    limit = config["rendezvous"]["studies"]["time_limit_min"]
+    table = bounce(grounds.results / "studies")
+    limit = grounds.config["rendezvous"]["studies"]["time_limit_min"]
     rows = table[table["time_limit_min"] == limit].set_index("end_distance_m")
     # Where the chaser docks in most runs the deviations fall with the distance.
     rows = rows[rows["docked_share"] > 0.5]
@@ -157,13 +166,14 @@ def one_distance_gives_both_deviations(config: Config, results: Path) -> Judgeme
         raise LookupError(f"passages at {limit:g} min")
     time, delta_v = rows["deviation_time_min"][::-1], rows["deviation_delta_v_m_s"][::-1]
     distances = rows.index.to_numpy()[::-1]
-    if not time.min() < PRINTED_TIME_MIN < time.max():
-        return Judgement("fails", f"the deviation of the time is never {PRINTED_TIME_MIN:g} min")
-    distance = float(np.interp(PRINTED_TIME_MIN, time, distances))
-    there = float(np.interp(PRINTED_TIME_MIN, time, delta_v))
+    wanted, minutes = printed_deviations(grounds.ledger).values()
+    if not time.min() < minutes < time.max():
+        return Judgement("fails", f"the deviation of the time is never {minutes:g} min")
+    distance = float(np.interp(minutes, time, distances))
+    there = float(np.interp(minutes, time, delta_v))
     return judged(
-        abs(there / PRINTED_DELTA_V_M_S - 1.0) < CLOSE,
+        abs(there / wanted - 1.0) < CLOSE,
         f"at a docking distance of {100 * distance:.1f} cm the deviation of the time is "
-        f"{PRINTED_TIME_MIN:g} min, as printed, and that of delta-v {there:.2f} m/s, printed "
-        f"{PRINTED_DELTA_V_M_S:g} m/s (interpolated; to be within {100 * CLOSE:.0f} %)",
+        f"{minutes:g} min, as printed, and that of delta-v {there:.2f} m/s, printed "
+        f"{wanted:g} m/s (interpolated; to be within {100 * CLOSE:.0f} %)",
     )

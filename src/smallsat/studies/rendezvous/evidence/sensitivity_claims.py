@@ -18,6 +18,7 @@ from scipy.stats import beta
 from smallsat.config import Config
 from smallsat.evidence.claims import Judgement, Outcome
 from smallsat.evidence.effects import above, judgement, together, within
+from smallsat.evidence.grounds import Grounds
 from smallsat.results import read_table
 from smallsat.statistics.bootstrap import Bootstrap, Effect, effect
 from smallsat.studies.rendezvous.monte_carlo.cases import PHASES, sweep_case
@@ -196,23 +197,23 @@ def _group_difference(values: np.ndarray, second: np.ndarray, first: np.ndarray,
     return statistic
 
 
-def quadrants_behind_take_longer(config: Config, results: Path) -> Judgement:
+def quadrants_behind_take_longer(grounds: Grounds) -> Judgement:
     """Section 4.1: median time, quadrants 3 and 4 less 1 and 2."""
-    d = Domain(config, results)
+    d = Domain(grounds.config, grounds.results)
     found = [d.difference("time, s", d.time, d.behind, ~d.behind, 0.5, 1)]
     return _rises(found, "median, quadrants 3 and 4 less 1 and 2")
 
 
-def quadrants_behind_have_higher_minimum(config: Config, results: Path) -> Judgement:
+def quadrants_behind_have_higher_minimum(grounds: Grounds) -> Judgement:
     """Section 4.1: lower bound of delta-v, quadrants 3 and 4 less 1 and 2."""
-    d = Domain(config, results)
+    d = Domain(grounds.config, grounds.results)
     found = [d.difference("delta-v, m/s", d.delta_v, d.behind, ~d.behind, LOWEST, 1)]
     return _rises(found, "5 % quantile, quadrants 3 and 4 less 1 and 2")
 
 
-def quadrant_matters_less_for_maximum(config: Config, results: Path) -> Judgement:
+def quadrant_matters_less_for_maximum(grounds: Grounds) -> Judgement:
     """Section 4.1: the shift of the lower bound of delta-v less that of the upper one."""
-    d = Domain(config, results)
+    d = Domain(grounds.config, grounds.results)
     lower = _group_difference(d.delta_v, d.behind, ~d.behind, LOWEST)
     upper = _group_difference(d.delta_v, d.behind, ~d.behind, HIGHEST)
     found = effect(
@@ -221,9 +222,9 @@ def quadrant_matters_less_for_maximum(config: Config, results: Path) -> Judgemen
     return _rises([found], "shift of the 5 % quantile by quadrant less that of the 95 % one")
 
 
-def quadrant_alone_gives_no_range(config: Config, results: Path) -> Judgement:
+def quadrant_alone_gives_no_range(grounds: Grounds) -> Judgement:
     """Section 4.1: share of the variance of delta-v and time that the quadrant explains."""
-    d = Domain(config, results)
+    d = Domain(grounds.config, grounds.results)
     found = [
         effect(name, _explained(values, d.quadrant), len(values), d.bootstrap, 2)
         for name, values in (("delta-v", d.delta_v), ("time", d.time))
@@ -256,9 +257,9 @@ def _below(one: Effect, threshold: float) -> Outcome:
     return above([shifted])
 
 
-def distance_raises_minimum(config: Config, results: Path) -> Judgement:
+def distance_raises_minimum(grounds: Grounds) -> Judgement:
     """Section 4.1: lower bounds of delta-v and time, farthest third less nearest third."""
-    d = Domain(config, results)
+    d = Domain(grounds.config, grounds.results)
     found = [
         d.difference(name, values, d.far, d.near, LOWEST, 2)
         for name, values in (("delta-v, m/s", d.delta_v), ("time, s", d.time))
@@ -266,9 +267,9 @@ def distance_raises_minimum(config: Config, results: Path) -> Judgement:
     return _rises(found, "5 % quantile, farthest third less nearest third")
 
 
-def distance_matters_more_for_maximum(config: Config, results: Path) -> Judgement:
+def distance_matters_more_for_maximum(grounds: Grounds) -> Judgement:
     """Section 4.1: shift of the upper bound of delta-v by distance less that by quadrant."""
-    d = Domain(config, results)
+    d = Domain(grounds.config, grounds.results)
     by_distance = _group_difference(d.delta_v, d.far, d.near, HIGHEST)
     by_quadrant = _group_difference(d.delta_v, d.behind, ~d.behind, HIGHEST)
     found = effect(
@@ -293,15 +294,15 @@ def _across(sweep: Sweep, quantity: str, first: float, last: float) -> list[Effe
     ]
 
 
-def longer_sampling_saves_rendezvous(config: Config, results: Path) -> Judgement:
+def longer_sampling_saves_rendezvous(grounds: Grounds) -> Judgement:
     """Section 4.2: delta-v from the shortest to the longest sample time, each horizon."""
-    sweep = Sweep(config, results, "rendezvous")
+    sweep = Sweep(grounds.config, grounds.results, "rendezvous")
     return _falls(_across(sweep, DELTA_V, *_ends(sweep)), "median change")
 
 
-def savings_diminish(config: Config, results: Path) -> Judgement:
+def savings_diminish(grounds: Grounds) -> Judgement:
     """Section 4.2: the last interval of sample times saves less than every other one."""
-    sweep = Sweep(config, results, "rendezvous")
+    sweep = Sweep(grounds.config, grounds.results, "rendezvous")
     *others, last = pairwise(sweep.sample_times)
     if not others:
         raise LookupError("sample times")
@@ -322,21 +323,21 @@ def _medians_differ(first: np.ndarray, second: np.ndarray):
     return lambda drawn: np.median(second[drawn], axis=1) - np.median(first[drawn], axis=1)
 
 
-def longer_sampling_needs_fewer_actuations(config: Config, results: Path) -> Judgement:
+def longer_sampling_needs_fewer_actuations(grounds: Grounds) -> Judgement:
     """Section 4.2: control actuations from the shortest to the longest sample time."""
-    sweep = Sweep(config, results, "rendezvous")
+    sweep = Sweep(grounds.config, grounds.results, "rendezvous")
     return _falls(_across(sweep, STEPS, *_ends(sweep)), "median change")
 
 
-def longer_sampling_takes_longer(config: Config, results: Path) -> Judgement:
+def longer_sampling_takes_longer(grounds: Grounds) -> Judgement:
     """Section 4.2: time of the phase from the shortest to the longest sample time."""
-    sweep = Sweep(config, results, "rendezvous")
+    sweep = Sweep(grounds.config, grounds.results, "rendezvous")
     return _rises(_across(sweep, TIME, *_ends(sweep)), "median change")
 
 
-def faster_sampling_spreads(config: Config, results: Path) -> Judgement:
+def faster_sampling_spreads(grounds: Grounds) -> Judgement:
     """Section 4.2: spread of delta-v from the shortest to the longest sample time."""
-    sweep = Sweep(config, results, "rendezvous")
+    sweep = Sweep(grounds.config, grounds.results, "rendezvous")
     first, last = _ends(sweep)
     found = [
         sweep.widening(DELTA_V, (n, first), (n, last), len(sweep.horizons)) for n in sweep.horizons
@@ -344,9 +345,9 @@ def faster_sampling_spreads(config: Config, results: Path) -> Judgement:
     return _falls(found, "relative change")
 
 
-def long_sampling_and_horizon_fail(config: Config, results: Path) -> Judgement:
+def long_sampling_and_horizon_fail(grounds: Grounds) -> Judgement:
     """Section 4.2: failures, slowest two sample times and longer horizons less the other cases."""
-    sweep = Sweep(config, results, "rendezvous")
+    sweep = Sweep(grounds.config, grounds.results, "rendezvous")
     slow, long = sweep.sample_times[-2:], sweep.horizons[1:]
     failed = {
         (n, t): ~sweep.rows(n, t)["completed"] for n in sweep.horizons for t in sweep.sample_times
@@ -361,23 +362,23 @@ def long_sampling_and_horizon_fail(config: Config, results: Path) -> Judgement:
     return _rises([found], "slowest two sample times with the longer horizons less all other cases")
 
 
-def limit_is_ample(config: Config, results: Path) -> Judgement:
+def limit_is_ample(grounds: Grounds) -> Judgement:
     """Section 4.2: mean time of a manoeuvre against the limit."""
-    d = Domain(config, results)
-    limit = 60.0 * studies(config)["time_limit_min"]
+    d = Domain(grounds.config, grounds.results)
+    limit = 60.0 * studies(grounds.config)["time_limit_min"]
     found = effect("share", lambda i: d.time[i].mean(axis=1) / limit, len(d.time), d.bootstrap)
     return judgement(
         _below(found, 0.5), "mean time as a share of the limit, to be below half", [found]
     )
 
 
-def failures_stall_on_boundary(config: Config, results: Path) -> Judgement:
+def failures_stall_on_boundary(grounds: Grounds) -> Judgement:
     """Section 4.2: share of the failures that end at rest on the keep-out sphere."""
-    sweep = Sweep(config, results, "rendezvous")
+    sweep = Sweep(grounds.config, grounds.results, "rendezvous")
     failed = sweep.table[~sweep.table["completed"]]
     if failed.empty:
         return Judgement("undecided", "no manoeuvre of the sweep fails")
-    radius = config["rendezvous"]["inferred"]["keep_out_m"]
+    radius = grounds.config["rendezvous"]["inferred"]["keep_out_m"]
     ends = failed[[f"rendezvous_end_{name}" for name in ("x_m", "y_m", "z_m")]].to_numpy()
     speed = failed[[f"rendezvous_end_{name}" for name in ("vx_m_s", "vy_m_s", "vz_m_s")]]
     near = np.abs(np.linalg.norm(ends, axis=1) / radius - 1.0) < ON_BOUNDARY
@@ -415,17 +416,17 @@ def _horizons(
     ]
 
 
-def longer_horizon_saves_rendezvous(config: Config, results: Path) -> Judgement:
+def longer_horizon_saves_rendezvous(grounds: Grounds) -> Judgement:
     """Section 4.2: delta-v and time from the first to the second horizon, each sample time."""
-    sweep = Sweep(config, results, "rendezvous")
+    sweep = Sweep(grounds.config, grounds.results, "rendezvous")
     first, second = tested(sweep.horizons, 2)[:2]
     found = _horizons(sweep, first, second, (DELTA_V, TIME), sweep.sample_times)
     return _falls(found, "median change")
 
 
-def longest_horizon_is_similar(config: Config, results: Path) -> Judgement:
+def longest_horizon_is_similar(grounds: Grounds) -> Judgement:
     """Section 4.2: delta-v and time from the second to the third horizon stay similar."""
-    sweep = Sweep(config, results, "rendezvous")
+    sweep = Sweep(grounds.config, grounds.results, "rendezvous")
     _, second, third = tested(sweep.horizons, 3, 3)
     found = _horizons(sweep, second, third, (DELTA_V, TIME), sweep.sample_times)
     return judgement(within(found, SIMILAR), "median change, to be within 5 %", found)
@@ -434,14 +435,14 @@ def longest_horizon_is_similar(config: Config, results: Path) -> Judgement:
 # Section 4.3: the approach phase.
 
 
-def longer_sampling_lowers_minimum_approach(config: Config, results: Path) -> Judgement:
+def longer_sampling_lowers_minimum_approach(grounds: Grounds) -> Judgement:
     """Section 4.3: lower bound of delta-v from the second to the longest sample time."""
-    return _falls(_approach_shift(config, results), "relative change")
+    return _falls(_approach_shift(grounds), "relative change")
 
 
-def _approach_shift(config: Config, results: Path) -> list[Effect]:
+def _approach_shift(grounds: Grounds) -> list[Effect]:
     # The shortest sample time is the one called infeasible at the shortest horizon.
-    sweep = Sweep(config, results, "approach")
+    sweep = Sweep(grounds.config, grounds.results, "approach")
     _, first, *_, last = tested(sweep.sample_times, 3)
     return [
         sweep.shift(DELTA_V, LOWEST, (n, first), (n, last), len(sweep.horizons))
@@ -449,27 +450,27 @@ def _approach_shift(config: Config, results: Path) -> list[Effect]:
     ]
 
 
-def _approach_spread(config: Config, results: Path, quantity: str) -> list[Effect]:
-    sweep = Sweep(config, results, "approach")
+def _approach_spread(grounds: Grounds, quantity: str) -> list[Effect]:
+    sweep = Sweep(grounds.config, grounds.results, "approach")
     _, first, *_, last = tested(sweep.sample_times, 3)
     return [
         sweep.widening(quantity, (n, first), (n, last), len(sweep.horizons)) for n in sweep.horizons
     ]
 
 
-def longer_sampling_spreads_approach(config: Config, results: Path) -> Judgement:
+def longer_sampling_spreads_approach(grounds: Grounds) -> Judgement:
     """Section 4.3: spread of delta-v from the second to the longest sample time."""
-    return _rises(_approach_spread(config, results, DELTA_V), "relative change")
+    return _rises(_approach_spread(grounds, DELTA_V), "relative change")
 
 
-def longer_sampling_spreads_approach_time(config: Config, results: Path) -> Judgement:
+def longer_sampling_spreads_approach_time(grounds: Grounds) -> Judgement:
     """Section 4.3: spread of the time from the second to the longest sample time."""
-    return _rises(_approach_spread(config, results, TIME), "relative change")
+    return _rises(_approach_spread(grounds, TIME), "relative change")
 
 
-def short_approach_horizon_is_infeasible(config: Config, results: Path) -> Judgement:
+def short_approach_horizon_is_infeasible(grounds: Grounds) -> Judgement:
     """Section 4.3: shortest horizon and sample time: approaches that meet an infeasible program."""
-    sweep = Sweep(config, results, "approach")
+    sweep = Sweep(grounds.config, grounds.results, "approach")
     rows = sweep.rows(sweep.horizons[0], sweep.sample_times[0])
     infeasible = infeasible_share(rows, "approach")
     found = effect("share", lambda i: infeasible[i].mean(axis=1), len(infeasible), sweep.bootstrap)
@@ -488,9 +489,9 @@ def infeasible_share(rows: pd.DataFrame, phase: str) -> np.ndarray:
     return met.to_numpy(dtype=float)
 
 
-def approach_delta_v_drops_with_horizon(config: Config, results: Path) -> Judgement:
+def approach_delta_v_drops_with_horizon(grounds: Grounds) -> Judgement:
     """Section 4.3: delta-v from the first to the second horizon falls by a quarter or more."""
-    sweep = Sweep(config, results, "approach")
+    sweep = Sweep(grounds.config, grounds.results, "approach")
     first, second = tested(sweep.horizons, 2)[:2]
     found = _horizons(sweep, first, second, (DELTA_V,), sweep.sample_times[1:])
     return judgement(
@@ -498,9 +499,9 @@ def approach_delta_v_drops_with_horizon(config: Config, results: Path) -> Judgem
     )
 
 
-def longest_approach_horizon_is_similar(config: Config, results: Path) -> Judgement:
+def longest_approach_horizon_is_similar(grounds: Grounds) -> Judgement:
     """Section 4.3: delta-v and time from the second to the third horizon stay similar."""
-    sweep = Sweep(config, results, "approach")
+    sweep = Sweep(grounds.config, grounds.results, "approach")
     _, second, third = tested(sweep.horizons, 3, 3)
     found = _horizons(sweep, second, third, (DELTA_V, TIME), sweep.sample_times)
     return judgement(within(found, SIMILAR), "median change, to be within 5 %", found)
@@ -509,9 +510,9 @@ def longest_approach_horizon_is_similar(config: Config, results: Path) -> Judgem
 # Section 4.4: the docking phase.
 
 
-def fastest_docking_doubles_actuations(config: Config, results: Path) -> Judgement:
+def fastest_docking_doubles_actuations(grounds: Grounds) -> Judgement:
     """Section 4.4: actuations of the other sample times less half of those of the fastest one."""
-    sweep = Sweep(config, results, "docking")
+    sweep = Sweep(grounds.config, grounds.results, "docking")
     first, *others = sweep.sample_times
     found = []
     for n in sweep.horizons:
@@ -523,15 +524,15 @@ def fastest_docking_doubles_actuations(config: Config, results: Path) -> Judgeme
     return judgement(above(found, 2.0), "median ratio of actuations, to be above two", found)
 
 
-def longer_sampling_docks_later(config: Config, results: Path) -> Judgement:
+def longer_sampling_docks_later(grounds: Grounds) -> Judgement:
     """Section 4.4: time to dock from the shortest to the longest sample time."""
-    sweep = Sweep(config, results, "docking")
+    sweep = Sweep(grounds.config, grounds.results, "docking")
     return _rises(_across(sweep, TIME, *_ends(sweep)), "median change")
 
 
-def longer_sampling_lowers_docking_extremes(config: Config, results: Path) -> Judgement:
+def longer_sampling_lowers_docking_extremes(grounds: Grounds) -> Judgement:
     """Section 4.4: smallest and largest delta-v from the shortest to the longest sample time."""
-    sweep = Sweep(config, results, "docking")
+    sweep = Sweep(grounds.config, grounds.results, "docking")
     first, last = _ends(sweep)
     found = [
         sweep.shift(DELTA_V, level, (n, first), (n, last), 2 * len(sweep.horizons))
@@ -541,11 +542,11 @@ def longer_sampling_lowers_docking_extremes(config: Config, results: Path) -> Ju
     return _falls(found, "relative change")
 
 
-def docking_difference_is_tiny(config: Config, results: Path) -> Judgement:
+def docking_difference_is_tiny(grounds: Grounds) -> Judgement:
     """Section 4.4: that change against the range of delta-v of the two phases before."""
-    sweep = Sweep(config, results, "docking")
+    sweep = Sweep(grounds.config, grounds.results, "docking")
     first, last = _ends(sweep)
-    table = read_table(results / "studies/domain.parquet")
+    table = grounds.table("studies/domain.parquet")
     rows = table[(table["case"] == "baseline") & table["completed"]]
     before = totals(rows, DELTA_V, PHASES[:2]).to_numpy()
     unit = float(np.quantile(before, HIGHEST) - np.quantile(before, LOWEST))
@@ -559,9 +560,9 @@ def docking_difference_is_tiny(config: Config, results: Path) -> Judgement:
     return judgement(within(found, TINY), reading, found)
 
 
-def docking_time_hardly_depends_on_horizon(config: Config, results: Path) -> Judgement:
+def docking_time_hardly_depends_on_horizon(grounds: Grounds) -> Judgement:
     """Section 4.4: time to dock from the first horizon to the others, each sample time."""
-    sweep = Sweep(config, results, "docking")
+    sweep = Sweep(grounds.config, grounds.results, "docking")
     first, *others = sweep.horizons
     count = len(others) * len(sweep.sample_times)
     found = [
@@ -570,17 +571,17 @@ def docking_time_hardly_depends_on_horizon(config: Config, results: Path) -> Jud
     return judgement(within(found, NOT_MUCH), "median change, to be within 10 %", found)
 
 
-def short_horizon_docks_faster(config: Config, results: Path) -> Judgement:
+def short_horizon_docks_faster(grounds: Grounds) -> Judgement:
     """Section 4.4: time to dock from the first to the second horizon, each sample time."""
-    sweep = Sweep(config, results, "docking")
+    sweep = Sweep(grounds.config, grounds.results, "docking")
     first, second = tested(sweep.horizons, 2)[:2]
     found = _horizons(sweep, first, second, (TIME,), sweep.sample_times)
     return _rises(found, "median change")
 
 
-def recommended_docking_sampling_saves(config: Config, results: Path) -> Judgement:
+def recommended_docking_sampling_saves(grounds: Grounds) -> Judgement:
     """Section 4.4: delta-v from the recommended sample times to the next one on either side."""
-    sweep = Sweep(config, results, "docking")
+    sweep = Sweep(grounds.config, grounds.results, "docking")
     fast, low, high, slow = tested(sweep.sample_times, 4, 4)
     count = 2 * len(sweep.horizons)
     found = [

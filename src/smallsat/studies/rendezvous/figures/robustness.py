@@ -3,6 +3,7 @@
 Each function returns the figure and the table of exactly what it draws.
 """
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -11,10 +12,6 @@ from matplotlib.figure import Figure
 from matplotlib.pyplot import subplots
 
 from smallsat.drawing.style import BLACK, BLUE, ORANGE, VERMILION
-from smallsat.studies.rendezvous.evidence.robustness_claims import (
-    PRINTED_DELTA_V_M_S,
-    PRINTED_TIME_MIN,
-)
 
 Drawing = tuple[Figure, pd.DataFrame]
 MINUTE, HOUR = 60.0, 3600.0
@@ -87,21 +84,22 @@ def averages(disturbed: pd.DataFrame, undisturbed: pd.DataFrame) -> Drawing:
     return figure, data[columns]
 
 
-def bounce_map(table: pd.DataFrame, baseline: float) -> Drawing:
+def bounce_map(table: pd.DataFrame, baseline: float, printed: Mapping[str, float]) -> Drawing:
     """Mean deviations over docking distance and time limit, and the printed ones as lines.
 
     Columns of ``table``: ``end_distance_m``, ``time_limit_min``, ``deviation_delta_v_m_s``,
     ``deviation_time_min``, ``docked_share``. ``baseline`` is the docking distance of all other
-    studies, m.
+    studies, m. ``printed`` has the document's mean deviations by the names of their columns.
     """
     figure, axes = subplots(1, 3, figsize=(7.0, 3.1), sharey=True)
     table = table.assign(docked_pct=100.0 * table["docked_share"])
     panels = (
-        ("deviation_delta_v_m_s", r"deviation of $\Delta v$ [m/s]", PRINTED_DELTA_V_M_S),
-        ("deviation_time_min", "deviation of time [min]", PRINTED_TIME_MIN),
-        ("docked_pct", "share that docks [%]", None),
+        ("deviation_delta_v_m_s", r"deviation of $\Delta v$ [m/s]"),
+        ("deviation_time_min", "deviation of time [min]"),
+        ("docked_pct", "share that docks [%]"),
     )
-    for panel, (name, label, printed) in zip(axes, panels, strict=True):
+    for panel, (name, label) in zip(axes, panels, strict=True):
+        stated = printed.get(name)
         grid = table.pivot(index="time_limit_min", columns="end_distance_m", values=name)
         values = grid.to_numpy(dtype=float)
         x, y = range(grid.shape[1]), range(grid.shape[0])
@@ -114,9 +112,9 @@ def bounce_map(table: pd.DataFrame, baseline: float) -> Drawing:
                 shade = "white" if value < middle else "black"
                 panel.text(j, i, text, ha="center", va="center", fontsize=6.5, color=shade)
         low, high = float(np.nanmin(values)), float(np.nanmax(values))
-        if printed is not None and low < printed < high:
-            panel.contour(x, y, values, levels=[printed], colors=VERMILION, linewidths=2)
-        title = label if printed is None else f"{label}\nprinted: {printed:g}"
+        if stated is not None and low < stated < high:
+            panel.contour(x, y, values, levels=[stated], colors=VERMILION, linewidths=2)
+        title = label if stated is None else f"{label}\nprinted: {stated:g}"
         panel.set_title(title, loc="left")
         panel.set_xticks(x, [f"{100 * one:g}" for one in grid.columns], fontsize=7)
         panel.set_yticks(y, [f"{one:g}" for one in grid.index])

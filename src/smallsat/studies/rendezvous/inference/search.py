@@ -18,7 +18,8 @@ import pandas as pd
 from scipy.optimize import differential_evolution
 
 from smallsat.config import Config
-from smallsat.studies.rendezvous.evidence.printed import (
+from smallsat.evidence.ledger import Ledger
+from smallsat.studies.rendezvous.evidence.case_tables import (
     CASE_TABLES,
     MINUTE,
     phase_cells,
@@ -62,9 +63,9 @@ def with_values(section: Config, values: dict[str, float], readings: dict[str, A
     return changed
 
 
-def printed_steps(section: Config) -> dict[tuple[str, str], int]:
+def printed_steps(section: Config, ledger: Ledger) -> dict[tuple[str, str], int]:
     """Whole steps of each phase that the printed times stand for (the far range less 1 s)."""
-    cells = phase_cells()
+    cells = phase_cells(ledger)
     cells = cells[cells["phase"].isin(PHASES)]
     return {
         (row["case"], row["phase"]): round(
@@ -133,16 +134,16 @@ def _excess(given: Law, phase: int, state: np.ndarray, time: float) -> float:
     return excess
 
 
-def residuals(section: Config, flown: pd.DataFrame) -> pd.DataFrame:
+def residuals(section: Config, flown: pd.DataFrame, ledger: Ledger) -> pd.DataFrame:
     """Residuals of every printed cell, in assumed errors: a row a set and cell, a column a reading.
 
     Columns: ``set``, ``cell``, ``printed``, then for each of `READINGS` computed (``computed <r>``)
     and residual (``residual <r>``).
     """
     settings = section["inference"]
-    wanted = printed_steps(section)
-    delta_v: Any = phase_cells().set_index(["case", "phase"])["delta_v_m_s"].to_dict()
-    totals: Any = total_cells().set_index("case").to_dict("index")
+    wanted = printed_steps(section, ledger)
+    delta_v: Any = phase_cells(ledger).set_index(["case", "phase"])["delta_v_m_s"].to_dict()
+    totals: Any = total_cells(ledger).set_index("case").to_dict("index")
     rows = []
 
     def add(
@@ -203,14 +204,14 @@ def _error(settings: Config, printed: float) -> float:
     return max(settings["delta_v_share"] * printed, settings["delta_v_error_m_s"])
 
 
-def misfits(section: Config, flown: pd.DataFrame) -> pd.DataFrame:
+def misfits(section: Config, flown: pd.DataFrame, ledger: Ledger) -> pd.DataFrame:
     """Sum of squared residuals by set (rows) and reading of delta-v (columns)."""
-    table = residuals(section, flown)
+    table = residuals(section, flown, ledger)
     squares = {r: table[f"residual {r}"] ** 2 for r in READINGS}
     return pd.DataFrame(squares).groupby(table["set"]).sum()
 
 
-def search(section: Config, side: str) -> pd.DataFrame:
+def search(section: Config, side: str, ledger: Ledger) -> pd.DataFrame:
     """Search all parameters and readings with the R-bar on one side of the target.
 
     Differential evolution from a spread of sets, the configured one among them, then a chain of
@@ -235,7 +236,7 @@ def search(section: Config, side: str) -> pd.DataFrame:
         columns = np.atleast_2d(places.T)
         sets = [decoded(place) for place in columns]
         flown = fly_sets([with_values(section, *one) for one in sets])
-        found = misfits(section, flown)
+        found = misfits(section, flown, ledger)
         table = pd.DataFrame([values | readings for values, readings in sets])
         table["misfit"] = found.min(axis=1).to_numpy()
         table["delta_v"] = found.idxmin(axis=1).to_numpy()
@@ -258,7 +259,7 @@ def search(section: Config, side: str) -> pd.DataFrame:
         seed=random, polish=False, vectorized=True, updating="deferred", tol=0.0,
         mutation=(0.4, 0.9), recombination=0.8,
     )  # fmt: skip
-    cells = 2 * len(printed_steps(section)) + 2
+    cells = 2 * len(printed_steps(section, ledger)) + 2
     _chain(
         misfit,
         found.population,

@@ -7,7 +7,8 @@ import numpy as np
 import pandas as pd
 
 from smallsat.config import Config
-from smallsat.studies.rendezvous.evidence.printed import MINUTE, total_cells
+from smallsat.evidence.ledger import Ledger
+from smallsat.studies.rendezvous.evidence.case_tables import MINUTE, total_cells
 from smallsat.studies.rendezvous.inference.search import (
     CHOICES,
     SIDES,
@@ -31,10 +32,10 @@ LP_CONTROL = (1e2, 1e3, 1e4)
 LP_TERMINAL = (1.0, 1e2, 1e4, 1e5)
 
 
-def configured_residuals(section: Config) -> pd.DataFrame:
+def configured_residuals(section: Config, ledger: Ledger) -> pd.DataFrame:
     """Residuals of every fitted cell with the configured set, one row a cell."""
     reading = section["inferred"]["readings"]["delta_v"]
-    table = residuals(section, fly_sets([section]))
+    table = residuals(section, fly_sets([section]), ledger)
     return pd.DataFrame(
         {
             "cell": table["cell"],
@@ -161,7 +162,7 @@ def ensemble(section: Config, evaluated: pd.DataFrame) -> pd.DataFrame:
     return flown[["set", "misfit", "case", "phase", "ended", "steps", "time_s", "delta_v_m_s"]]
 
 
-def linear_programs(section: Config) -> pd.DataFrame:
+def linear_programs(section: Config, ledger: Ledger) -> pd.DataFrame:
     """The LP case with many weights, with and without set point: one row a variant."""
     sections: list[Config] = []
     rows: list[dict[str, Any]] = []
@@ -177,7 +178,7 @@ def linear_programs(section: Config) -> pd.DataFrame:
         rows.append({"set_point": point, "control_weight": control, "terminal_weight": terminal})
     flown = fly_sets(sections, ("lp",))
     reading = section["inferred"]["readings"]["delta_v"]
-    printed: Any = total_cells().set_index("case").loc["lp"]
+    printed: Any = total_cells(ledger).set_index("case").loc["lp"]
     groups: Any = flown.groupby("set")
     for place, part in groups:
         docked = bool(part["ended"].all())

@@ -10,7 +10,7 @@ import pandas as pd
 from smallsat.config import Config
 from smallsat.dynamics.compiled import compiled
 from smallsat.optimal_control.riccati_interior_point import workspace
-from smallsat.studies.rendezvous.evidence.printed import CASE_TABLES
+from smallsat.studies.rendezvous.evidence.case_tables import CASE_TABLES
 from smallsat.studies.rendezvous.guidance.law import PHASES, settings
 from smallsat.studies.rendezvous.guidance.phase_programs import BOUNDS, PLANES, program_room
 from smallsat.studies.rendezvous.model.environment import environment, target_state

@@ -4,14 +4,11 @@ The signature is that of `smallsat.evidence.claims.Predicate`: the whole configu
 folder with the study's results.
 """
 
-from pathlib import Path
-
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.evidence.claims import Judgement, judged
-from smallsat.results import read_table
+from smallsat.evidence.grounds import Grounds
 from smallsat.studies.slew.evidence.observations import short_of, target_yaw
 from smallsat.studies.slew.methods.bound import impossible, largest_disturbance, needed, reach
 from smallsat.studies.slew.methods.environment_study import crossover_km
@@ -19,13 +16,8 @@ from smallsat.studies.slew.methods.minimum_time import eigenaxis_time
 from smallsat.studies.slew.model.simulation import angles_deg
 from smallsat.studies.slew.parameters import Parameters, panels, parameters
 
-# Printed literals that a predicate confronts with ours.
-PRINTED_OMEGA_Z = {"torque-optimal": 0.56, "eigenaxis": 1.07}  # deg/s, 180 deg
-PRINTED_YAW_DEG, PRINTED_ROLL_DEG, PRINTED_PITCH_DEG = -179.1, 1.56, 9.56
-PRINTED_EIGENAXIS_DEG = 160.6
-PRINTED_FINAL_PCT = {"x": 0.35, "y": 3.32, "z": 11.9}
-PRINTED_RATES_DEG_S = {"x": (0.04, 0.005), "y": (0.17, 0.005), "z": (0.56, 0.005)}
-PRINTED_PEAK_PCT = 27.9  # z, 90 deg torque-optimal
+# Where the document prints its torque-optimal and its eigenaxis turns.
+OPTIMAL, EIGENAXIS = "section-vi-b", "section-vi-a"
 
 INDEPENDENT_MISS = 1e-6
 VISIBLE_DEG = 1.0
@@ -36,9 +28,9 @@ ROUNDING = 1e-12
 SAME_COST = 1e-3
 
 
-def _least(results: Path, case: str) -> float:
+def _least(grounds: Grounds, case: str) -> float:
     """Least time, s, of a case; a LookupError where none was found."""
-    rows = read_table(results / "minimum-times.csv").set_index("case")
+    rows = grounds.table("minimum-times.csv").set_index("case")
     if not rows["converged"].to_dict()[case]:
         raise LookupError(f"no least time of {case}")
     return float(rows["duration_s"].to_dict()[case])
@@ -51,13 +43,13 @@ def _turn_about_z(given: Parameters, case: str) -> None:
         raise LookupError("the turn is not about the body's z axis")
 
 
-def not_in_the_given_time(config: Config, results: Path) -> Judgement:
+def not_in_the_given_time(grounds: Grounds) -> Judgement:
     """180 deg in 100 s: a bound without an optimiser, and the least time of two methods."""
-    given = parameters(config["slew"])
+    given = parameters(grounds.config["slew"])
     duration, angle = given.duration, np.degrees(needed(given, "half"))
     name = given.names["half"]
-    least = _least(results, f"{name}, wheels and gravity gradient")
-    answers = read_table(results / "infeasible.csv")
+    least = _least(grounds, f"{name}, wheels and gravity gradient")
+    answers = grounds.table("infeasible.csv")
     if answers["hard_converged"].any() or least <= duration:
         return Judgement(
             "fails",
@@ -72,7 +64,7 @@ def not_in_the_given_time(config: Config, results: Path) -> Judgement:
         )
     outer = largest_disturbance(given, duration)
     path = np.degrees(reach(given.inertia, given.torque, duration, disturbance=outer))
-    bound = read_table(results / "bound.csv").set_index("model")["bound_s"]
+    bound = grounds.table("bound.csv").set_index("model")["bound_s"]
     return Judgement(
         "holds",
         f"from rest to rest the wheels can move the body's x axis along at most {path:.1f} deg of "
@@ -82,16 +74,16 @@ def not_in_the_given_time(config: Config, results: Path) -> Judgement:
     )
 
 
-def valid_trajectory_at_limits(config: Config, results: Path) -> Judgement:
+def valid_trajectory_at_limits(grounds: Grounds) -> Judgement:
     """A valid trajectory for the 180 deg turn in 100 s."""
-    judgement = not_in_the_given_time(config, results)
-    row = read_table(results / "infeasible.csv").iloc[-1]
+    judgement = not_in_the_given_time(grounds)
+    row = grounds.table("infeasible.csv").iloc[-1]
     if judgement.outcome == "undecided":
         return judgement
     if judgement.outcome == "fails":
         return Judgement("holds", f"a valid one exists: {judgement.evidence}")
     miss = np.degrees(np.sqrt(row["miss"]))
-    duration = config["slew"]["manoeuvre"]["duration_s"]
+    duration = grounds.config["slew"]["manoeuvre"]["duration_s"]
     return Judgement(
         "fails",
         f"no valid one exists: {judgement.evidence}. The least infeasible plan misses its end by "
@@ -100,17 +92,20 @@ def valid_trajectory_at_limits(config: Config, results: Path) -> Judgement:
     )
 
 
-def printed_run_misses(config: Config, results: Path) -> Judgement:
+def printed_run_misses(grounds: Grounds) -> Judgement:
     """The printed final momentum is J w of the printed final rates."""
-    given = parameters(config["slew"])
+    given = parameters(grounds.config["slew"])
+    rates, final = (
+        grounds.ledger.values(f"{OPTIMAL}/final-{quantity}/180-deg-torque-optimal")
+        for quantity in ("angular-rate", "angular-momentum-usage")
+    )
+    shares = 100.0 * np.radians(1.0) * np.diag(given.inertia) / given.momentum
     texts, fits = [], []
-    for i, axis in enumerate("xyz"):
-        rate, half = PRINTED_RATES_DEG_S[axis]
-        share = 100.0 * given.inertia[i, i] * np.radians(rate) / given.momentum
-        width = 100.0 * given.inertia[i, i] * np.radians(half) / given.momentum
-        fits.append(abs(share - PRINTED_FINAL_PCT[axis]) <= width + 0.05)
-        texts.append(f"{share:.2f} ({PRINTED_FINAL_PCT[axis]}) %")
-    x, y, z = (PRINTED_FINAL_PCT[a] / 100.0 * given.momentum for a in "xyz")
+    for rate, printed, share in zip(rates, final, shares, strict=True):
+        room = share * rate.half_unit + printed.half_unit
+        fits.append(abs(share * rate.value - printed.value) <= room)
+        texts.append(f"{share * rate.value:.2f} ({printed.value}) %")
+    x, y, z = (one.value / 100.0 * given.momentum for one in final)
     path = np.degrees(reach(given.inertia, given.torque, given.duration, (x, y, z)))
     return judged(
         all(fits),
@@ -120,11 +115,16 @@ def printed_run_misses(config: Config, results: Path) -> Judgement:
     )
 
 
-def yaw_error_significantly_lower(config: Config, results: Path) -> Judgement:
+def yaw_error_significantly_lower(grounds: Grounds) -> Judgement:
     """180 deg: the yaw error alone, and the whole attitude error, from the printed angles."""
-    yaw = 180.0 - abs(PRINTED_YAW_DEG)
-    whole = np.sqrt(yaw**2 + PRINTED_ROLL_DEG**2 + PRINTED_PITCH_DEG**2)
-    eigenaxis = 180.0 - PRINTED_EIGENAXIS_DEG
+    roll, pitch, yaw = (
+        grounds.ledger.value(f"{OPTIMAL}/final-{name}-angle/180-deg-torque-optimal").value
+        for name in ("roll", "pitch", "yaw")
+    )
+    yaw = 180.0 - abs(yaw)
+    whole = np.sqrt(yaw**2 + roll**2 + pitch**2)
+    reached = grounds.ledger.value(f"{EIGENAXIS}/final-yaw-angle/180-deg-eigenaxis").value
+    eigenaxis = 180.0 - reached
     return judged(
         yaw < eigenaxis / 2.0 and whole < eigenaxis,
         f"from the printed angles: {yaw:.1f} deg in yaw and about {whole:.1f} deg in all, against "
@@ -132,19 +132,26 @@ def yaw_error_significantly_lower(config: Config, results: Path) -> Judgement:
     )
 
 
-def omega_z_nearly_half(config: Config, results: Path) -> Judgement:
+def omega_z_nearly_half(grounds: Grounds) -> Judgement:
     """180 deg: the residual rates as printed."""
-    ratio = PRINTED_OMEGA_Z["torque-optimal"] / PRINTED_OMEGA_Z["eigenaxis"]
+    optimal, eigenaxis = (
+        grounds.ledger.value(name).value
+        for name in (
+            f"{OPTIMAL}/final-angular-rate/180-deg-torque-optimal/z",
+            f"{EIGENAXIS}/residual-omega-z/180-deg-eigenaxis/z",
+        )
+    )
+    ratio = optimal / eigenaxis
     return judged(abs(ratio - 0.5) < 0.05, f"the printed rates have the ratio {ratio:.2f}")
 
 
-def eigenaxis_is_not_fastest(config: Config, results: Path) -> Judgement:
+def eigenaxis_is_not_fastest(grounds: Grounds) -> Judgement:
     """Least times against full torque about the eigenaxis alone."""
-    given = parameters(config["slew"])
+    given = parameters(grounds.config["slew"])
     texts, faster = [], []
     for case, name in given.names.items():
         _, moment = _body_axis(given, case)
-        least = _least(results, f"{name}, wheels")
+        least = _least(grounds, f"{name}, wheels")
         angle = np.radians(given.angle_deg(case))
         alone = eigenaxis_time(angle, moment, given.torque, given.momentum)
         faster.append(least < alone - 1.0)
@@ -165,10 +172,10 @@ def _body_axis(given: Parameters, case: str) -> tuple[str, float]:
     return "xyz"[place], float(given.inertia[place, place])
 
 
-def nutation_saves_torque(config: Config, results: Path) -> Judgement:
+def nutation_saves_torque(grounds: Grounds) -> Judgement:
     """90 deg: whether motion about x and y lowers the torque used."""
-    given = parameters(config["slew"])
-    plans = read_table(results / "plans.csv").set_index("plan")
+    given = parameters(grounds.config["slew"])
+    plans = grounds.table("plans.csv").set_index("plan")
     row = plans.loc[f"{given.names['quarter']}, no gravity gradient, segments"]
     axis, moment = _body_axis(given, "quarter")
     angle = np.radians(given.angle_deg("quarter"))
@@ -183,12 +190,14 @@ def nutation_saves_torque(config: Config, results: Path) -> Judgement:
         return Judgement("holds", f"a plan off the eigenaxis costs {found} about {axis} alone")
     if saving <= -SAME_COST:
         return Judgement("undecided", f"the plan found costs {found}: more than it need")
-    printed = "below" if share < PRINTED_PEAK_PCT else "not below"
+    name = f"{OPTIMAL}/maximum-angular-momentum-usage/90-deg-torque-optimal/z"
+    printed = grounds.ledger.value(name).value
+    below = "below" if share < printed else "not below"
     return Judgement(
         "fails",
         f"of {row['starts']} starts off the eigenaxis every one ends in full torque, coast, full "
-        f"torque about {axis} alone: {found}, peak momentum {share:.2f} %, {printed} the printed "
-        f"{PRINTED_PEAK_PCT} %. The saving over the PD law comes from coasting, not from nutation",
+        f"torque about {axis} alone: {found}, peak momentum {share:.2f} %, {below} the printed "
+        f"{printed} %. The saving over the PD law comes from coasting, not from nutation",
     )
 
 
@@ -200,12 +209,12 @@ def bang_coast_bang(
     return 2.0 * torque * burn, torque * burn
 
 
-def better_than_eigenaxis(config: Config, results: Path) -> Judgement:
+def better_than_eigenaxis(grounds: Grounds) -> Judgement:
     """90 deg: yaw error and peak momentum, in the fuller model, open loop against PD."""
-    given = parameters(config["slew"])
+    given = parameters(grounds.config["slew"])
     _turn_about_z(given, "quarter")
-    replays = read_table(results / "replays.parquet")
-    flights = read_table(results / "flights.parquet")
+    replays = grounds.table("replays.parquet")
+    flights = grounds.table("flights.parquet")
     found = []
     for table, name in (
         (replays, f"{given.names['quarter']}, one segment"),
@@ -231,23 +240,23 @@ def _flight(table: pd.DataFrame, name: str) -> pd.DataFrame:
     return flown
 
 
-def eigenaxis_stays_on_axis(config: Config, results: Path) -> Judgement:
+def eigenaxis_stays_on_axis(grounds: Grounds) -> Judgement:
     """Roll and pitch of all eigenaxis flights."""
-    given = parameters(config["slew"])
+    given = parameters(grounds.config["slew"])
     for case in given.names:
         _turn_about_z(given, case)
-    flights = read_table(results / "flights.parquet")
+    flights = grounds.table("flights.parquet")
     largest = float(np.abs(angles_deg(flights.iloc[::10])[:, :2]).max())
     return judged(
         largest < SMALL_DEG, f"roll and pitch stay below {largest:.1e} deg in all flights"
     )
 
 
-def open_loop_follows(config: Config, results: Path) -> Judgement:
+def open_loop_follows(grounds: Grounds) -> Judgement:
     """90 deg: the torque history flown open loop against the plan."""
-    given = parameters(config["slew"])
+    given = parameters(grounds.config["slew"])
     _turn_about_z(given, "quarter")
-    replays = read_table(results / "replays.parquet")
+    replays = grounds.table("replays.parquet")
     flown = _flight(replays, f"{given.names['quarter']}, one segment").tail(1)
     roll, pitch, yaw = angles_deg(flown)[0]
     aside = short_of(yaw, target_yaw(given, "quarter"))
@@ -259,10 +268,10 @@ def open_loop_follows(config: Config, results: Path) -> Judgement:
     )
 
 
-def half_turn_off_eigenaxis(config: Config, results: Path) -> Judgement:
+def half_turn_off_eigenaxis(grounds: Grounds) -> Judgement:
     """180 deg: the tilt of the body's z axis on feasible plans."""
-    _turn_about_z(parameters(config["slew"]), "half")
-    tilts = _tilts(_feasible_plans(results))
+    _turn_about_z(parameters(grounds.config["slew"]), "half")
+    tilts = _tilts(_feasible_plans(grounds))
     falling = len(tilts) > 1 and tilts.is_monotonic_decreasing
     order = ", the more the shorter the time" if falling else ""
     return judged(
@@ -272,9 +281,9 @@ def half_turn_off_eigenaxis(config: Config, results: Path) -> Judgement:
     )
 
 
-def _feasible_plans(results: Path) -> pd.DataFrame:
+def _feasible_plans(grounds: Grounds) -> pd.DataFrame:
     """The trade-off's plans with a held control; a LookupError where none converged."""
-    plans = read_table(results / "trade-off-plans.parquet")
+    plans = grounds.table("trade-off-plans.parquet")
     if not len(plans):
         raise LookupError("no plan of the trade-off converged")
     return plans
@@ -288,10 +297,10 @@ def _tilts(plans: pd.DataFrame) -> pd.Series:
     return tilts.groupby(plans["plan"]).max()[times.index]
 
 
-def closed_loop_of_the_axis(config: Config, results: Path) -> Judgement:
+def closed_loop_of_the_axis(grounds: Grounds) -> Judgement:
     """180 deg: the path of the body's z axis in the inertial x-y plane closes on itself."""
-    _turn_about_z(parameters(config["slew"]), "half")
-    plans = _feasible_plans(results)
+    _turn_about_z(parameters(grounds.config["slew"]), "half")
+    plans = _feasible_plans(grounds)
     path = plans[plans["plan"] == plans["plan"].iloc[0]]
     q1, q2, q3, q4 = (path[f"q_{i}"].to_numpy() for i in range(1, 5))
     x, y = 2.0 * (q1 * q3 + q2 * q4), 2.0 * (q2 * q3 - q1 * q4)
@@ -305,10 +314,10 @@ def closed_loop_of_the_axis(config: Config, results: Path) -> Judgement:
     )
 
 
-def torque_all_the_time(config: Config, results: Path) -> Judgement:
+def torque_all_the_time(grounds: Grounds) -> Judgement:
     """180 deg: the share of time with torque about each axis."""
-    plans = _feasible_plans(results)
-    given = parameters(config["slew"])
+    plans = _feasible_plans(grounds)
+    given = parameters(grounds.config["slew"])
     limit = 0.01 * given.torque
     shares = [
         (
@@ -326,10 +335,10 @@ def torque_all_the_time(config: Config, results: Path) -> Judgement:
     )
 
 
-def gradient_dominates(config: Config, results: Path) -> Judgement:
+def gradient_dominates(grounds: Grounds) -> Judgement:
     """From 400 km on the gravity gradient is the larger torque, over the band of assumptions."""
-    section = config["slew"]
-    table = read_table(results / "environment.csv")
+    section = grounds.config["slew"]
+    table = grounds.table("environment.csv")
     above = table[table["altitude_km"] >= 400.0]
     printed = panels(section)[0, 5]
     lever = table[np.isclose(table["offset_mm"], 1e3 * abs(printed))]
@@ -357,11 +366,11 @@ def _km(altitude: float) -> str:
     return "no altitude studied" if np.isnan(altitude) else f"{altitude:.0f} km"
 
 
-def transition_matrix_keeps_length(config: Config, results: Path) -> Judgement:
+def transition_matrix_keeps_length(grounds: Grounds) -> Judgement:
     """The closed form is a rotation: only rounding denormalises the quaternion."""
-    table = read_table(results / "propagator.csv")
+    table = grounds.table("propagator.csv")
     length = float(table["length_error"].max())
-    given = parameters(config["slew"])
+    given = parameters(grounds.config["slew"])
     flown = table[table["flight"].str.startswith(given.names["half"])]
     rows = flown.set_index("step_s")["error_deg"]
     if not rows[1.0] > 0.0:
@@ -376,10 +385,10 @@ def transition_matrix_keeps_length(config: Config, results: Path) -> Judgement:
     )
 
 
-def local_minima(config: Config, results: Path) -> Judgement:
+def local_minima(grounds: Grounds) -> Judgement:
     """Several starts end in different least times."""
-    starts = read_table(results / "minimum-time-starts.csv")
-    name = parameters(config["slew"]).names["half"]
+    starts = grounds.table("minimum-time-starts.csv")
+    name = parameters(grounds.config["slew"]).names["half"]
     found = starts[starts["converged"] & (starts["case"] == f"{name}, wheels")]
     if not len(found):
         raise LookupError("no start converged")
@@ -394,11 +403,11 @@ def local_minima(config: Config, results: Path) -> Judgement:
     )
 
 
-def plans_are_optimal(config: Config, results: Path) -> Judgement:
+def plans_are_optimal(grounds: Grounds) -> Judgement:
     """Ours: converged, flown anew, limits kept, Hamiltonian constant."""
     table, times = (
         rows[rows["converged"]]
-        for rows in (read_table(results / f"{name}.csv") for name in ("trade-off", "minimum-times"))
+        for rows in (grounds.table(f"{name}.csv") for name in ("trade-off", "minimum-times"))
     )
     if not len(table) or not len(times):
         raise LookupError("nothing converged")

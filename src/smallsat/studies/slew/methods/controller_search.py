@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 
 from smallsat.dynamics.compiled import compiled
+from smallsat.evidence.ledger import Ledger
 from smallsat.studies.slew.parameters import Parameters
 
 LAWS = ("sin(e/2)", "e/2", "2 tan(e/4)")
@@ -26,11 +27,14 @@ DAMPINGS = (0.3, 3.0)
 # The document's own gains are among those tried.
 DOCUMENT = (0.13, 1.0)
 
-# Printed in Section VI.A, with half a unit of the last digit: yaw, rate, peak and final momentum.
-PRINTED = {
-    "quarter": np.array([[84.21, 0.005], [0.22, 0.005], [38.9, 0.05], [4.76, 0.005]]),
-    "half": np.array([[160.6, 0.05], [1.07, 0.005], [58.4, 0.05], [22.8, 0.05]]),
-}
+# What Section VI.A prints of both turns; the peak of the first is the one in doubt.
+TURNS = {"quarter": "90-deg-eigenaxis", "half": "180-deg-eigenaxis"}
+PRINTED = (
+    "section-vi-a/final-yaw-angle/{}",
+    "section-vi-a/residual-omega-z/{}/z",
+    "section-vi-a/maximum-angular-momentum-usage/{}/z",
+    "section-vi-a/final-angular-momentum-usage/{}/z",
+)
 PEAK = 2
 
 
@@ -100,21 +104,26 @@ def values(
     return np.array([np.degrees(angle), np.degrees(rate), share * peak, share * final])
 
 
-def misses(given: Parameters, wn: float, zeta: float, law: int, hold: float) -> np.ndarray:
-    """Differences from the printed values in half units of their last digits, shape (8,)."""
-    return np.concatenate(
-        [
-            (values(given, case, wn, zeta, law, hold) - printed[:, 0]) / printed[:, 1]
-            for case, printed in PRINTED.items()
-        ]
-    )
+def printed_values(ledger: Ledger) -> np.ndarray:
+    """The printed values of both turns, each with half a unit of its last digit, shape (8, 2)."""
+    printed = [ledger.value(name.format(turn)) for turn in TURNS.values() for name in PRINTED]
+    return np.array([[one.value, one.half_unit] for one in printed])
 
 
-def search(given: Parameters) -> pd.DataFrame:
+def misses(
+    given: Parameters, printed: np.ndarray, wn: float, zeta: float, law: int, hold: float
+) -> np.ndarray:
+    """Differences from `printed_values` in half units of their last digits, shape (8,)."""
+    found = np.concatenate([values(given, case, wn, zeta, law, hold) for case in TURNS])
+    return (found - printed[:, 0]) / printed[:, 1]
+
+
+def search(given: Parameters, printed: np.ndarray) -> pd.DataFrame:
     """For each law and hold: the controller that comes nearest to the printed values.
 
     Three questions a row: all values but the 38.9 %; all values of 90 deg with it; all of both
     turns with it. The nearest is the one whose worst value misses by the fewest half units.
+    ``printed`` are the `printed_values`.
     """
     chosen = {
         "all but the peak of 90 deg": [i for i in range(8) if i != PEAK],
@@ -126,18 +135,18 @@ def search(given: Parameters) -> pd.DataFrame:
     rows = []
     for (law, name), hold in product(enumerate(LAWS), HOLDS_S):
         grid = {
-            (wn, zeta): np.abs(misses(given, wn, zeta, law, hold))
+            (wn, zeta): np.abs(misses(given, printed, wn, zeta, law, hold))
             for wn, zeta in [*product(frequencies, dampings), DOCUMENT]
         }
         for question, index in chosen.items():
             starts = sorted(grid, key=lambda key: float(grid[key][index].max()))[:STARTS]
             wn, zeta = min(
-                (_refined(given, *start, law, hold, index) for start in starts),
+                (_refined(given, printed, *start, law, hold, index) for start in starts),
                 key=lambda gains: float(
-                    np.abs(misses(given, gains[0], gains[1], law, hold))[index].max()
+                    np.abs(misses(given, printed, gains[0], gains[1], law, hold))[index].max()
                 ),
             )
-            quarter, half = (values(given, case, wn, zeta, law, hold) for case in PRINTED)
+            quarter, half = (values(given, case, wn, zeta, law, hold) for case in TURNS)
             rows.append(
                 {
                     "feedback": name,
@@ -146,7 +155,7 @@ def search(given: Parameters) -> pd.DataFrame:
                     "frequency_rad_s": float(f"{wn:.4g}"),
                     "damping_ratio": float(f"{zeta:.4g}"),
                     "worst_miss_half_units": float(
-                        f"{np.abs(misses(given, wn, zeta, law, hold))[index].max():.2g}"
+                        f"{np.abs(misses(given, printed, wn, zeta, law, hold))[index].max():.2g}"
                     ),
                     "yaw_90_deg": float(f"{quarter[0]:.5g}"),
                     "peak_90_pct": float(f"{quarter[2]:.4g}"),
@@ -157,16 +166,13 @@ def search(given: Parameters) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def _refined(given, wn, zeta, law, hold, index) -> tuple[float, float]:
+def _refined(given, printed, wn, zeta, law, hold, index) -> tuple[float, float]:
     """Shrinking pattern search around a grid point, on the logarithms of both gains."""
     best = np.log([wn, zeta])
 
     def worst(place: np.ndarray) -> float:
-        return float(
-            np.abs(misses(given, float(np.exp(place[0])), float(np.exp(place[1])), law, hold))[
-                index
-            ].max()
-        )
+        wn, zeta = (float(np.exp(log)) for log in place)
+        return float(np.abs(misses(given, printed, wn, zeta, law, hold))[index].max())
 
     value, width = worst(best), np.log(FREQUENCIES[1] / FREQUENCIES[0]) / GRID
     while width > 1e-5:

@@ -1,24 +1,21 @@
 """Predicates for what the orbit-transfer document says in prose."""
 
-from pathlib import Path
-
 import numpy as np
 
-from smallsat.config import Config
 from smallsat.evidence.claims import Judgement, judged
-from smallsat.results import read_table
+from smallsat.evidence.grounds import Grounds
 from smallsat.studies.transfer.evidence.observations import degree_spread
-from smallsat.studies.transfer.evidence.printed import printed_cases
+from smallsat.studies.transfer.evidence.printed_cases import printed_cases
 from smallsat.studies.transfer.results import final_times, indirect_times, read_cases
 
 
-def _indirect(results: Path):
-    return indirect_times(read_cases(results))
+def _indirect(grounds: Grounds):
+    return indirect_times(read_cases(grounds.results))
 
 
-def _grid(results: Path, run: str):
+def _grid(grounds: Grounds, run: str):
     """Final times of all cases of direct multiple shooting; a `LookupError` if one is missing."""
-    cases = read_cases(results)
+    cases = read_cases(grounds.results)
     times = final_times(cases, run)
     asked = cases[(cases["run"] == run) & (cases["intervals"] > 1) & (cases["method"] == "direct")]
     if len(times) < len(asked) or times.empty:
@@ -26,29 +23,29 @@ def _grid(results: Path, run: str):
     return times
 
 
-def same_extremal(config: Config, results: Path) -> Judgement:
+def same_extremal(grounds: Grounds) -> Judgement:
     """Multiple shooting ends at the solution of single shooting."""
-    times = _indirect(results)
+    times = _indirect(grounds)
     spread = float(times.max() - times.min())
     return judged(spread < 1e-9, f"t_f over all K differs by {spread:.1e}")
 
 
-def shortest(config: Config, results: Path) -> Judgement:
+def shortest(grounds: Grounds) -> Judgement:
     """No case beats the indirect methods."""
-    cases = read_cases(results)
+    cases = read_cases(grounds.results)
     feasible = cases[(cases["residual"] < 1e-9) & (cases["method"] == "direct")]
     if feasible.empty:
         raise LookupError("no feasible direct solution")
-    margin = float(feasible["final_time"].min() - _indirect(results).min())
+    margin = float(feasible["final_time"].min() - _indirect(grounds).min())
     return judged(
         margin > -1e-9,
         f"the best of {len(feasible)} feasible direct solutions is {margin:.1e} slower",
     )
 
 
-def continuous_control(config: Config, results: Path) -> Judgement:
+def continuous_control(grounds: Grounds) -> Judgement:
     """The control of the indirect methods does not jump at interval ends."""
-    flown = read_table(results / "indirect.parquet")
+    flown = grounds.table("indirect.parquet")
     jumps = []
     for _, group in flown[flown["intervals"] > 1].groupby("intervals"):
         first = group.groupby("segment")["beta"].first().to_numpy()[1:]
@@ -59,33 +56,34 @@ def continuous_control(config: Config, results: Path) -> Judgement:
     return judged(max(jumps) < 1e-8, f"largest jump at an interval end {max(jumps):.1e} rad")
 
 
-def no_gain_from_intervals(config: Config, results: Path) -> Judgement:
+def no_gain_from_intervals(grounds: Grounds) -> Judgement:
     """For degree 2 more intervals do not give a better solution."""
-    times = _grid(results, "converged").loc[2]
+    times = _grid(grounds, "converged").loc[2]
     if len(times) < 2:
         raise LookupError("fewer than two numbers of intervals")
-    gaps = times - _indirect(results).min()
+    gaps = times - _indirect(grounds).min()
     falling = bool((times.diff().iloc[1:] < -1e-9).all())
     listed = ", ".join(f"K = {k}: {gap:.1e}" for k, gap in gaps.items())
     return judged(not falling, f"converged distance to the optimum for N = 2: {listed}")
 
 
-def degree_negligible(config: Config, results: Path) -> Judgement:
+def degree_negligible(grounds: Grounds) -> Judgement:
     """The degree hardly matters for the final time of multiple shooting."""
-    if _grid(results, "converged").index.get_level_values("degree").nunique() < 2:
+    if _grid(grounds, "converged").index.get_level_values("degree").nunique() < 2:
         raise LookupError("fewer than two degrees")
-    spread = degree_spread(read_cases(results), "converged")
+    spread = degree_spread(read_cases(grounds.results), "converged")
     listed = ", ".join(f"K = {k}: {value:.4f} %" for k, value in spread.items())
+    name = "section-3-4-1/effect-of-degree-on-terminal-time/direct-multiple-shooting"
     return judged(
         bool((spread < 0.1).all()),
         f"converged spread over N, {listed}: below a tenth of a per cent, but many times the "
-        "0.003 % that the text names",
+        f"{grounds.ledger.literal(name)} % that the text names",
     )
 
 
-def closer_with_intervals(config: Config, results: Path) -> Judgement:
+def closer_with_intervals(grounds: Grounds) -> Judgement:
     """More intervals come closer to the indirect optimum."""
-    times = _grid(results, "converged").unstack("intervals")
+    times = _grid(grounds, "converged").unstack("intervals")
     steps = times.diff(axis=1).iloc[:, 1:]
     if not steps.size:
         raise LookupError("fewer than two numbers of intervals")
@@ -95,17 +93,21 @@ def closer_with_intervals(config: Config, results: Path) -> Judgement:
     )
 
 
-def indirect_growth_linear(config: Config, results: Path) -> Judgement:
+def indirect_growth_linear(grounds: Grounds) -> Judgement:
     """The printed seconds of indirect multiple shooting grow almost linearly with K."""
-    seconds = printed_cases("Table 2")["sim time"].droplevel(["method", "degree"])
+    seconds = printed_cases(grounds.ledger, "Table 2")["sim time"].droplevel(["method", "degree"])
     ratios = (seconds / seconds.shift()).dropna()
     listed = ", ".join(f"to K = {k}: x {ratio:.1f}" for k, ratio in ratios.to_dict().items())
     return judged(bool((ratios < 2.5).all()), f"printed growth by doubling K, {listed}")
 
 
-def direct_growth_quadratic(config: Config, results: Path) -> Judgement:
+def direct_growth_quadratic(grounds: Grounds) -> Judgement:
     """The printed seconds of direct multiple shooting grow almost quadratically with K."""
-    seconds = printed_cases("Table 4")["sim time"].droplevel("method").unstack("intervals")
+    seconds = (
+        printed_cases(grounds.ledger, "Table 4")["sim time"]
+        .droplevel("method")
+        .unstack("intervals")
+    )
     slopes = [np.polyfit(np.log(seconds.columns), np.log(row), 1)[0] for row in seconds.to_numpy()]
     return judged(
         min(slopes) > 1.5 and max(slopes) < 2.6,
@@ -113,12 +115,12 @@ def direct_growth_quadratic(config: Config, results: Path) -> Judgement:
     )
 
 
-def single_polynomial_cost(config: Config, results: Path) -> Judgement:
+def single_polynomial_cost(grounds: Grounds) -> Judgement:
     """One polynomial of degree 6 costs 3.5 % in time against the indirect optimum."""
-    cases = read_cases(results)
+    cases = read_cases(grounds.results)
     best = cases[(cases["intervals"] == 1) & (cases["run"] == "converged")].set_index("degree")
     time = float(best["final_time"].dropna().to_dict()[6])
-    excess = 100 * (time / float(_indirect(results).min()) - 1)
+    excess = 100 * (time / float(_indirect(grounds).min()) - 1)
     return judged(
         excess > 3.4,
         f"the printed solution is a local minimum: the best of many starts has "
@@ -126,34 +128,34 @@ def single_polynomial_cost(config: Config, results: Path) -> Judgement:
     )
 
 
-def direct_worse_than_indirect(config: Config, results: Path) -> Judgement:
+def direct_worse_than_indirect(grounds: Grounds) -> Judgement:
     """Both indirect methods give a better solution than direct multiple shooting."""
-    gap = _grid(results, "converged") - _indirect(results).min()
+    gap = _grid(grounds, "converged") - _indirect(grounds).min()
     return judged(
         bool((gap > 0).all()),
         f"converged direct cases are {gap.min():.1e} to {gap.max():.1e} slower",
     )
 
 
-def continuity_helps(config: Config, results: Path) -> Judgement:
+def continuity_helps(grounds: Grounds) -> Judgement:
     """A continuous control might reach the optimum in direct multiple shooting."""
-    loss = _grid(results, "continuous") - _grid(results, "converged")
+    loss = _grid(grounds, "continuous") - _grid(grounds, "converged")
     return judged(
         bool((loss < 0).any()),
         f"continuity is a constraint more: it costs {loss.min():.1e} to {loss.max():.1e} in t_f",
     )
 
 
-def bounds_help(config: Config, results: Path) -> Judgement:
+def bounds_help(grounds: Grounds) -> Judgement:
     """Wider coefficient bounds improve the cases with 16 intervals."""
     return Judgement(
         "undecided", "the tighter bounds of the first runs are not printed, so nothing to compare"
     )
 
 
-def early_stopping(config: Config, results: Path) -> Judgement:
+def early_stopping(grounds: Grounds) -> Judgement:
     """Our inference: the printed Table 4 holds iterates of an SQP method stopped early."""
-    table = read_table(results / "early-stopping.csv")
+    table = grounds.table("early-stopping.csv")
     if table.empty:
         raise LookupError("none of the printed cases")
     rows = table.groupby(["degree", "intervals"])

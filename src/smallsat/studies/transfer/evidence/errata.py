@@ -1,22 +1,16 @@
 """Proofs of the errata of the orbit-transfer document; each recomputes a quantity both ways."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import casadi as ca
 import numpy as np
 
 from smallsat.config import Config
 from smallsat.evidence.errata import Proof
+from smallsat.evidence.grounds import Grounds
 from smallsat.evidence.not_converged import NotConverged
-from smallsat.results import read_table
 from smallsat.studies.transfer.evidence.observations import degree_spread
-from smallsat.studies.transfer.evidence.printed import (
-    contradictions,
-    mass_from_time,
-    printed_cases,
-    printed_value,
-)
+from smallsat.studies.transfer.evidence.printed_cases import contradictions, printed_cases
 from smallsat.studies.transfer.methods.extremals import find_extremals
 from smallsat.studies.transfer.model.problem import TransferProblem
 from smallsat.studies.transfer.model.units import canonical, units_of
@@ -34,122 +28,140 @@ def _solve(config: Config, **changes: float) -> tuple[float, float]:
     return final_time, problem.final_mass(final_time)
 
 
-def exhaust_speed(config: Config, results: Path) -> Proof:
+def _mass_after(grounds: Grounds, final_time: float) -> float:
+    """Final mass that a final time implies (equation 27)."""
+    return TransferProblem.from_config(grounds.config["transfer"]).final_mass(final_time)
+
+
+def exhaust_speed(grounds: Grounds) -> Proof:
     """Solve the problem with the exhaust speed of the prose and with that of the listings."""
-    prose = printed_value("transfer/section-2-3/v-e-exhaust-speed")
-    listing = printed_value("transfer/listing-1/param-ve")
-    wrong, right = (_solve(config, exhaust_speed=speed) for speed in (prose, listing))
-    printed = (
-        printed_value("transfer/table-1/terminal-time/indirect-shooting"),
-        printed_value("transfer/table-1/terminal-mass/indirect-shooting"),
+    ledger = grounds.ledger
+    prose = ledger.value("section-2-3/v-e-exhaust-speed").value
+    listing = ledger.value("listing-1/param-ve").value
+    wrong, right = (_solve(grounds.config, exhaust_speed=speed) for speed in (prose, listing))
+    time, mass = (
+        ledger.value(f"table-1/terminal-{quantity}/indirect-shooting")
+        for quantity in ("time", "mass")
     )
-    fits = np.allclose(right, printed, rtol=0, atol=5e-6)
     return Proof(
-        holds=bool(fits and not np.isclose(wrong[0], printed[0], rtol=0, atol=5e-6)),
+        holds=time.matches(right[0]) and mass.matches(right[1]) and not time.matches(wrong[0]),
         as_printed=f"t_f = {wrong[0]:.6f}, m_f = {wrong[1]:.6f}",
         as_corrected=f"t_f = {right[0]:.6f}, m_f = {right[1]:.6f}",
         statement=(
             f"Only v_e = {listing} of the listings gives Table 1 "
-            f"({printed[0]:.5f}, {printed[1]:.5f}); v_e = {prose} does not"
+            f"({time.value:.5f}, {mass.value:.5f}); v_e = {prose} does not"
         ),
+        correct=listing,
     )
 
 
-def final_radius(config: Config, results: Path) -> Proof:
+def final_radius(grounds: Grounds) -> Proof:
     """A final radius of 1 is the initial orbit, which needs no transfer at all."""
-    prose = printed_value("transfer/section-2-3/boundary-transversality-condition/r-f")
-    table = printed_value("transfer/section-2-1-conditions-table/terminal-condition/r-t-f")
-    problem = TransferProblem.from_config(config["transfer"])
+    ledger = grounds.ledger
+    prose = ledger.value("section-2-3/boundary-transversality-condition/r-f").value
+    table = ledger.value("section-2-1-conditions-table/terminal-condition/r-t-f").value
+    problem = TransferProblem.from_config(grounds.config["transfer"])
     same_orbit = replace(problem, final_radius=prose)
     error = float(np.max(np.abs(same_orbit.terminal_error(same_orbit.initial_state))))
-    time, _ = _solve(config, final_radius=table)
-    printed = printed_value("transfer/table-1/terminal-time/indirect-shooting")
+    time, _ = _solve(grounds.config, final_radius=table)
+    printed = ledger.value("table-1/terminal-time/indirect-shooting")
     return Proof(
-        holds=error == 0.0 and abs(time - printed) <= 5e-6,
+        holds=error == 0.0 and printed.matches(time),
         as_printed="the initial state meets every terminal condition: t_f = 0",
         as_corrected=f"t_f = {time:.6f}",
         statement=(
             f"With r(t_f) = {prose:g} the spacecraft is there already; "
-            f"r(t_f) = {table:g} gives the printed {printed:.5f}"
+            f"r(t_f) = {table:g} gives the printed {printed.value:.5f}"
         ),
+        correct=table,
     )
 
 
-def mass_of_n4_k16(config: Config, results: Path) -> Proof:
+def mass_of_n4_k16(grounds: Grounds) -> Proof:
     """The mass flow is constant, so the printed time of the same row fixes the mass."""
     row = "direct-multiple-shooting-n-4-k-16"
-    time = printed_value(f"transfer/table-4/terminal-time/{row}")
-    mass = printed_value(f"transfer/table-4/terminal-mass/{row}")
-    best = printed_value("transfer/table-1/terminal-mass/indirect-shooting")
-    implied = mass_from_time(time, config)
+    time = grounds.ledger.value(f"table-4/terminal-time/{row}").value
+    printed = grounds.ledger.value(f"table-4/terminal-mass/{row}")
+    mass, best = printed.value, _best_mass(grounds)
+    implied = _mass_after(grounds, time)
     return Proof(
-        holds=abs(mass - implied) > 5e-6 and mass > best,
+        holds=not printed.matches(implied) and mass > best,
         as_printed=f"{mass:.5f}",
         as_corrected=f"{implied:.5f}",
         statement=(
             f"m_f = 1 - (T / v_e) t_f with the row's own t_f = {time:.5f} gives {implied:.6f}; "
             f"the printed {mass:.5f} would beat the indirect optimum {best:.5f}"
         ),
+        correct=implied,
     )
 
 
-def _mass_of_single(config: Config, degree: int) -> Proof:
+def _best_mass(grounds: Grounds) -> float:
+    """The printed final mass of the indirect optimum."""
+    return grounds.ledger.value("table-1/terminal-mass/indirect-shooting").value
+
+
+def _mass_of_single(grounds: Grounds, degree: int) -> Proof:
+    """Of one polynomial: the prose's mass against the mass that Table 3's time implies."""
     row = f"direct-shooting-n-{degree}"
-    time = printed_value(f"transfer/table-3/terminal-time/{row}")
-    table = printed_value(f"transfer/table-3/terminal-mass/{row}")
-    prose = printed_value(f"transfer/section-3-3/terminal-mass/{row}")
-    # The printed time is rounded at its fourth decimal: the mass it implies has this much room.
-    room = config["transfer"]["problem"]["thrust"] * 5e-5
-    implied = mass_from_time(time, config)
+    time = grounds.ledger.value(f"table-3/terminal-time/{row}")
+    table = grounds.ledger.value(f"table-3/terminal-mass/{row}").value
+    prose = grounds.ledger.value(f"section-3-3/terminal-mass/{row}")
+    # The printed time is rounded: the mass that it implies has this much room.
+    room = grounds.config["transfer"]["problem"]["thrust"] * time.half_unit
+    implied = _mass_after(grounds, time.value)
     return Proof(
-        holds=abs(prose - implied) > 5e-6 + room,
-        as_printed=f"{prose:.5f}",
+        holds=abs(prose.value - implied) > prose.half_unit + room,
+        as_printed=f"{prose.value:.5f}",
         as_corrected=f"{implied:.5f}",
         statement=(
-            f"Table 3's t_f = {time:.4f} implies {implied:.5f} (give or take {room:.0e}); "
-            f"its own mass is {table:.4f}, the prose says {prose:.5f}"
+            f"Table 3's t_f = {time.value:.4f} implies {implied:.5f} (give or take {room:.0e}); "
+            f"its own mass is {table:.4f}, the prose says {prose.value:.5f}"
         ),
+        correct=implied,
     )
 
 
-def mass_of_n4_prose(config: Config, results: Path) -> Proof:
+def mass_of_n4_prose(grounds: Grounds) -> Proof:
     """The prose's mass for N = 4 against the time of the same case."""
-    return _mass_of_single(config, 4)
+    return _mass_of_single(grounds, 4)
 
 
-def mass_of_n6_prose(config: Config, results: Path) -> Proof:
+def mass_of_n6_prose(grounds: Grounds) -> Proof:
     """The prose's mass for N = 6 against the time of the same case."""
-    return _mass_of_single(config, 6)
+    return _mass_of_single(grounds, 6)
 
 
-def extra_digit_k16(config: Config, results: Path) -> Proof:
+def extra_digit_k16(grounds: Grounds) -> Proof:
     """The seventh digit of the prose for K = 16 against Table 2 and the converged solution."""
     case = "indirect-multiple-shooting-k-16"
-    prose = printed_value(f"transfer/section-3-2/terminal-time/{case}")
-    table = printed_value(f"transfer/table-2/terminal-time/{case}")
-    row = select(read_cases(results), PrintedCase("indirect", 0, 16), "as published").iloc[0]
+    prose = grounds.ledger.value(f"section-3-2/terminal-time/{case}").value
+    table = grounds.ledger.value(f"table-2/terminal-time/{case}")
+    row = select(read_cases(grounds.results), PrintedCase("indirect", 0, 16), "as published").iloc[
+        0
+    ]
     ours = float(row["final_time"])
     if not row["converged"]:
         raise LookupError("a case that did not converge")
     return Proof(
-        holds=abs(prose - table) > 5e-6 and abs(ours - table) <= 5e-6 and row["residual"] < 1e-9,
+        holds=not table.matches(prose) and table.matches(ours) and row["residual"] < 1e-9,
         as_printed=f"{prose:.6f}",
         as_corrected=f"{ours:.6f}",
         statement=(
-            f"{prose:.6f} does not round to Table 2's {table:.5f}; the converged t_f is "
-            f"{ours:.8f}, its conditions met to {row['residual']:.0e} when flown anew"
+            f"{prose:.6f} does not round to Table 2's {table.value:.5f}; the converged t_f "
+            f"is {ours:.8f}, its conditions met to {row['residual']:.0e} when flown anew"
         ),
+        correct=ours,
     )
 
 
-def effect_of_degree(config: Config, results: Path) -> Proof:
+def effect_of_degree(grounds: Grounds) -> Proof:
     """The spread of the final time over the degrees, from Table 4 and from converged runs."""
-    printed = printed_value(
-        "transfer/section-3-4-1/effect-of-degree-on-terminal-time/direct-multiple-shooting"
-    )
-    times = printed_cases("Table 4")["terminal time"].groupby("intervals")
+    name = "section-3-4-1/effect-of-degree-on-terminal-time/direct-multiple-shooting"
+    printed = grounds.ledger.value(name).value
+    times = printed_cases(grounds.ledger, "Table 4")["terminal time"].groupby("intervals")
     own = 100 * (times.max() - times.min()) / times.min()
-    ours = degree_spread(read_cases(results), "converged")
+    ours = degree_spread(read_cases(grounds.results), "converged")
     if ours.isna().any():
         raise LookupError("a case that did not converge")
     listed = ", ".join(f"K = {k}: {value:.4f} %" for k, value in own.items())
@@ -158,26 +170,27 @@ def effect_of_degree(config: Config, results: Path) -> Proof:
         as_printed=f"{printed} %",
         as_corrected=f"up to {own.max():.3f} % in Table 4, {ours.max():.3f} % converged",
         statement=f"Table 4's own spread over N is {listed}",
+        correct=float(own.max()),
     )
 
 
-def mass_increase(config: Config, results: Path) -> Proof:
+def mass_increase(grounds: Grounds) -> Proof:
     """The sign of the mass change from the indirect method to one polynomial of degree 6."""
-    indirect = printed_value("transfer/section-3-5/terminal-mass/direct-shooting-n-6")
-    best = printed_value("transfer/table-1/terminal-mass/indirect-shooting")
-    change = 100 * (indirect - best) / best
+    direct = grounds.ledger.value("section-3-5/terminal-mass/direct-shooting-n-6").value
+    best = _best_mass(grounds)
+    change = 100 * (direct - best) / best
     return Proof(
         holds=change < -0.5,
         as_printed="an increase of 1 %",
         as_corrected=f"a change of {change:+.2f} %",
-        statement=f"The mass goes from {best:.4f} to {indirect:.4f}: it falls",
+        statement=f"The mass goes from {best:.4f} to {direct:.4f}: it falls",
     )
 
 
-def time_of_n4_prose(config: Config, results: Path) -> Proof:
+def time_of_n4_prose(grounds: Grounds) -> Proof:
     """The elapsed time of N = 4 in the prose is that of N = 5."""
-    prose = printed_cases("Section 3.3")["elapsed time"]
-    table = printed_cases("Table 3")["sim time"]
+    prose = printed_cases(grounds.ledger, "Section 3.3")["elapsed time"]
+    table = printed_cases(grounds.ledger, "Table 3")["sim time"]
     four, five = ("direct", 4, 1), ("direct", 5, 1)
     return Proof(
         holds=bool(prose[four] == prose[five] and prose[four] != table[four]),
@@ -187,26 +200,29 @@ def time_of_n4_prose(config: Config, results: Path) -> Proof:
             f"The prose gives {prose[four]} s for N = 4 and for N = 5; Table 3 has "
             f"{table[four]} s and {table[five]} s"
         ),
+        correct=float(table[four]),
     )
 
 
-def increase_in_time(config: Config, results: Path) -> Proof:
+def increase_in_time(grounds: Grounds) -> Proof:
     """The relative increase in execution time from N = 2 to N = 6 at K = 2."""
-    table = printed_cases("Table 4")["sim time"]
+    table = printed_cases(grounds.ledger, "Table 4")["sim time"]
     low, high = table["direct", 2, 2], table["direct", 6, 2]
-    printed = printed_value("transfer/section-3-4-1/increase-in-computation-time-n-2-to-n-6/k-2")
+    name = "section-3-4-1/increase-in-computation-time-n-2-to-n-6/k-2"
+    printed = grounds.ledger.value(name)
     own = 100 * (high / low - 1)
     return Proof(
-        holds=abs(own - printed) > 0.05,
-        as_printed=f"{printed} %",
+        holds=not printed.matches(own),
+        as_printed=f"{printed.value} %",
         as_corrected=f"{own:.1f} %",
         statement=f"{high} s against {low} s is an increase of {own:.1f} %",
+        correct=float(own),
     )
 
 
-def prose_against_table_4(config: Config, results: Path) -> Proof:
+def prose_against_table_4(grounds: Grounds) -> Proof:
     """Cells of Section 3.4's prose that Table 4 contradicts beyond rounding and cutting off."""
-    cells = contradictions("Section 3.4", "Table 4", {"elapsed time": "sim time"})
+    cells = contradictions(grounds.ledger, "Section 3.4", "Table 4", {"elapsed time": "sim time"})
     counts = cells["quantity"].value_counts(sort=False)
     listed = ", ".join(f"{name}: {count}" for name, count in counts.items())
     return Proof(
@@ -217,10 +233,14 @@ def prose_against_table_4(config: Config, results: Path) -> Proof:
     )
 
 
-def nesting(config: Config, results: Path) -> Proof:
+def nesting(grounds: Grounds) -> Proof:
     """For fixed K the final time cannot rise with N: a polynomial of degree N is one of N + 1."""
-    printed = printed_cases("Table 4")["terminal time"].droplevel("method").unstack("intervals")
-    cases = read_cases(results)
+    printed = (
+        printed_cases(grounds.ledger, "Table 4")["terminal time"]
+        .droplevel("method")
+        .unstack("intervals")
+    )
+    cases = read_cases(grounds.results)
     ours = cases[(cases["run"] == "converged") & (cases["intervals"] > 1)]
     if not ours["converged"].all():
         raise LookupError("a case that did not converge")
@@ -240,24 +260,25 @@ def nesting(config: Config, results: Path) -> Proof:
     )
 
 
-def optimal_choice(config: Config, results: Path) -> Proof:
+def optimal_choice(grounds: Grounds) -> Proof:
     """The case with the smallest printed final time."""
-    times = printed_cases("Table 4")["terminal time"].droplevel("method")
+    times = printed_cases(grounds.ledger, "Table 4")["terminal time"].droplevel("method")
     degree, intervals = times.index[int(times.argmin())]
     return Proof(
         holds=(degree, intervals) != (6, 16),
         as_printed=f"N = 6, K = 16 ({times[6, 16]:.5f})",
         as_corrected=f"N = {degree}, K = {intervals} ({times.min():.5f})",
         statement=f"Table 4's smallest t_f is {times.min():.5f}, at N = {degree}, K = {intervals}",
+        correct=f"N = {degree} with K = {intervals} in the document's own table",
     )
 
 
-def lagrange_gravity(config: Config, results: Path) -> Proof:
+def lagrange_gravity(grounds: Grounds) -> Proof:
     """The gravity term of Lagrange's equation, by differentiating the printed Lagrangian."""
-    r, rate, mu = ca.SX.sym("r"), ca.SX.sym("rate"), config["transfer"]["problem"]["mu"]
+    r, rate, mu = ca.SX.sym("r"), ca.SX.sym("rate"), grounds.config["transfer"]["problem"]["mu"]
     lagrangian = 0.5 * rate**2 * r**2 + mu / r
     derivative = ca.Function("d", [r, rate], [ca.gradient(lagrangian, r)])
-    radius = config["transfer"]["problem"]["final_radius"]
+    radius = grounds.config["transfer"]["problem"]["final_radius"]
     force = float(derivative(radius, 0.0))
     return Proof(
         holds=bool(np.isclose(force, -mu / radius**2) and not np.isclose(force, -mu / radius)),
@@ -267,9 +288,9 @@ def lagrange_gravity(config: Config, results: Path) -> Proof:
     )
 
 
-def generalised_force(config: Config, results: Path) -> Proof:
+def generalised_force(grounds: Grounds) -> Proof:
     """The generalised force of theta needs the derivative of the position by theta."""
-    angle, radius, beta = 0.7, config["transfer"]["problem"]["final_radius"], 0.4
+    angle, radius, beta = 0.7, grounds.config["transfer"]["problem"]["final_radius"], 0.4
     u_r = np.array([np.cos(angle), np.sin(angle)])
     u_theta = np.array([-np.sin(angle), np.cos(angle)])
     force = np.cos(beta) * u_theta + np.sin(beta) * u_r
@@ -291,13 +312,13 @@ def generalised_force(config: Config, results: Path) -> Proof:
     )
 
 
-def hamiltonian_exhaust(config: Config, results: Path) -> Proof:
+def hamiltonian_exhaust(grounds: Grounds) -> Proof:
     """The Hamiltonian vanishes along the extremal with v_e in the mass term, not with v_theta."""
-    flown = read_table(results / "indirect.parquet")
+    flown = grounds.table("indirect.parquet")
     flown = flown[flown["intervals"] == 1]
     if flown.empty:
         raise LookupError("no solution of indirect shooting")
-    problem = TransferProblem.from_config(config["transfer"])
+    problem = TransferProblem.from_config(grounds.config["transfer"])
     correct = flown["hamiltonian"].abs().max()
     mass_term = flown["lambda_m"] * problem.thrust
     wrong = (
@@ -316,9 +337,9 @@ def hamiltonian_exhaust(config: Config, results: Path) -> Proof:
     )
 
 
-def iterations_unit(config: Config, results: Path) -> Proof:
+def iterations_unit(grounds: Grounds) -> Proof:
     """Whole numbers in a column headed in seconds, beside a column of seconds without a unit."""
-    columns = printed_cases("Table 4")
+    columns = printed_cases(grounds.ledger, "Table 4")
     whole = bool((columns["iterations"] % 1 == 0).all())
     fractional = bool((columns["sim time"] % 1 != 0).any())
     return Proof(

@@ -7,7 +7,6 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from smallsat.drawing.style import BLACK, BLUE, CYCLE, GREEN, ORANGE, VERMILION, WIDTH
-from smallsat.studies.transfer.evidence.printed import printed_cases
 from smallsat.studies.transfer.figures.missing import NOT_CONVERGED, mark_missing
 from smallsat.studies.transfer.methods.bounds import relative_length
 
@@ -226,7 +225,7 @@ def continuity_figure(table: pd.DataFrame, optimum: float) -> Figure:
     return figure
 
 
-def multistart_figure(starts: pd.DataFrame, optimum: float) -> Figure:
+def multistart_figure(starts: pd.DataFrame, optimum: float, printed: pd.Series) -> Figure:
     """Final times of the converged random starts for a single polynomial, printed values marked.
 
     Parameters
@@ -235,9 +234,10 @@ def multistart_figure(starts: pd.DataFrame, optimum: float) -> Figure:
         Columns degree, start, final_time, converged.
     optimum
         Final time of the indirect solution, which sets the scale; not a number if there is none.
+    printed
+        Final times as Table 3 prints them, with ``degree`` in the index.
     """
     figure, axes = plt.subplots(figsize=(WIDTH, 2.8))
-    printed = printed_cases("Table 3")["terminal time"]
     for degree, group in starts[starts["converged"].astype(bool)].groupby("degree"):
         axes.plot(group["final_time"], np.full(len(group), degree), "|", color=BLUE, ms=10)
     axes.plot([], [], "|", color=BLUE, ms=10, label="a random start")

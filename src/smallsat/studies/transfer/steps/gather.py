@@ -2,6 +2,7 @@
 
 import pandas as pd
 
+from smallsat.evidence.ledger import Ledger
 from smallsat.results import read_table
 from smallsat.step import Step, Tables
 from smallsat.studies.transfer.evidence.early_stopping import early_stopping_table
@@ -16,4 +17,5 @@ def run(step: Step) -> Tables:
         )
         for suffix in (".csv", ".parquet", "-seconds.csv")
     }
-    return tables | {"early-stopping.csv": early_stopping_table(tables["as-published.csv"])}
+    ledger = Ledger.read(step.published / "values.csv")
+    return tables | {"early-stopping.csv": early_stopping_table(tables["as-published.csv"], ledger)}

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from smallsat.evidence.ledger import read_ledger
+from smallsat.evidence.ledger import Ledger
 from smallsat.evidence.not_converged import joined
 from smallsat.evidence.observation import observations_table
 from smallsat.results import read_table
@@ -15,7 +15,7 @@ OURS = ("indirect", "converged", "continuous", "multistart", "collocation")
 
 def run(step: Step) -> Tables:
     """Observe, list what did not converge, and find our seconds for the printed ones."""
-    rows = read_ledger(step.published / "values.csv")
+    rows = Ledger.read(step.published / "values.csv").rows
     measured = [
         read_table(step.results / f"{name}-seconds.csv") for name in ("indirect", "as-published")
     ]

@@ -1,0 +1,43 @@
+"""What the proofs of errata and the predicates of claims rest on."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import pandas as pd
+
+from smallsat.config import Config
+from smallsat.evidence.ledger import Ledger, read_artefacts
+from smallsat.results import read_table
+
+
+@dataclass(frozen=True)
+class Grounds:
+    """The grounds on which one study is judged.
+
+    Attributes
+    ----------
+    config
+        The configuration, at least its section for this study.
+    results
+        Folder with the results of the study.
+    ledger
+        The printed numbers of its document.
+    captions
+        Captions of the document's tables and figures, by their names such as ``Figure A.3``.
+    """
+
+    config: Config
+    results: Path
+    ledger: Ledger
+    captions: Mapping[str, str]
+
+    def table(self, name: str) -> pd.DataFrame:
+        """A table of the results by its file's name; errors as from `read_table`."""
+        return read_table(self.results / name)
+
+
+def read_grounds(config: Config, published: Path, results: Path) -> Grounds:
+    """The grounds of a study, with the ledger and captions of its folder of published values."""
+    captions = {row["id"]: row["caption"] for row in read_artefacts(published / "artefacts.csv")}
+    return Grounds(config, results, Ledger.read(published / "values.csv"), captions)
