@@ -214,20 +214,20 @@ def test_predictive_count_covers_another_sample():
     first, second = random.binomial(500, 0.01, (2, 400))
     hits = 0
     for a, b in zip(first, second, strict=True):
-        low, high = predictive_count(int(a), 500, 0.95)
+        low, high = predictive_count(int(a), 500, 0.95, 500)
         hits += low <= b <= high
     assert 0.92 <= hits / 400 <= 1.0
     # Of few manoeuvres little is known.
-    assert predictive_count(0, 25, 0.95)[1] > predictive_count(0, 500, 0.95)[1]
+    assert predictive_count(0, 25, 0.95, 500)[1] > predictive_count(0, 500, 0.95, 500)[1]
 
 
 def test_predictive_maximum_is_a_bound_of_another_sample():
     """Largest of a second set of 500 below the low end in at most a fortieth of the cases."""
     random = np.random.default_rng(6)
-    low = [predictive_maximum(random.normal(size=500), 0.1, 0.95)[0] for _ in range(600)]
+    low = [predictive_maximum(random.normal(size=500), 0.1, 0.95, 500)[0] for _ in range(600)]
     largest = random.normal(size=(600, 500)).max(axis=1)
     assert np.mean(largest < low) <= 0.04
-    assert predictive_maximum(random.normal(size=25), 0.1, 0.95)[1] == np.inf
+    assert predictive_maximum(random.normal(size=25), 0.1, 0.95, 500)[1] == np.inf
 
 
 def test_proportion_interval_is_the_exact_one():

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal
 
+import numpy as np
 import pandas as pd
 
 from smallsat.evidence.grounds import Grounds
@@ -24,7 +25,7 @@ class Judgement:
 Predicate = Callable[[Grounds], Judgement]
 
 
-def judged(condition: bool, evidence: str) -> Judgement:
+def judged(condition: bool | np.bool, evidence: str) -> Judgement:
     """A claim that either holds or fails."""
     return Judgement("holds" if condition else "fails", evidence)
 

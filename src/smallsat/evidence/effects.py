@@ -20,6 +20,16 @@ def above(effects: Sequence[Effect], threshold: float = 0.0) -> Outcome:
     return "fails" if any(one.high < threshold for one in effects) else "undecided"
 
 
+def below(effects: Sequence[Effect], threshold: float) -> Outcome:
+    """Holds if all intervals lie below the threshold, fails if one lies above it."""
+    return above(negative(effects), -threshold)
+
+
+def negative(effects: Sequence[Effect]) -> list[Effect]:
+    """The effects with their signs turned, for a claim of a decrease."""
+    return [Effect(e.name, -e.value, -e.high, -e.low, e.units) for e in effects]
+
+
 def within(effects: Sequence[Effect], margin: float) -> Outcome:
     """Holds if all intervals lie within the margin of zero, fails if one lies outside."""
     if _too_few(effects):

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from smallsat.errors import InputError
@@ -44,7 +45,7 @@ class Proof:
         sentence is corrected, which the entry alone can say.
     """
 
-    holds: bool
+    holds: bool | np.bool
     as_printed: str
     as_corrected: str
     statement: str

@@ -36,6 +36,18 @@ class Grounds:
         """A table of the results by its file's name; errors as from `read_table`."""
         return read_table(self.results / name)
 
+    def rows(self, name: str, **columns: object) -> pd.DataFrame:
+        """Rows of a table of the results that have these values in their columns.
+
+        A LookupError where there are none: a what-if run may leave out the case that is asked for.
+        """
+        table = self.table(name)
+        for column, value in columns.items():
+            table = table[table[column] == value]
+        if table.empty:
+            raise LookupError(f"{name}: no rows with {columns}")
+        return table
+
 
 def read_grounds(config: Config, published: Path, results: Path) -> Grounds:
     """The grounds of a study, with the ledger and captions of its folder of published values."""

@@ -1,8 +1,4 @@
-"""Predicates of the document's prose claims.
-
-The signature is that of `smallsat.evidence.claims.Predicate`: the whole configuration and the
-folder with the study's results.
-"""
+"""Predicates of the document's prose claims."""
 
 from itertools import pairwise
 
@@ -102,7 +98,7 @@ def euler_angle_rates(grounds: Grounds) -> Judgement:
     gmo_sine = np.sin(given.gmo.inclination)
     note = " (Eq. 11 divides by sin i = 0 on the GMO orbit, where only the limit holds)"
     return judged(
-        bool(np.allclose(rates, [0.0, 0.0, lmo.rate], rtol=ROUNDING, atol=0.0)),
+        np.allclose(rates, [0.0, 0.0, lmo.rate], rtol=ROUNDING, atol=0.0),
         f"on the LMO orbit Eq. 11 gives node, inclination and angle the rates {rates[0]:.0f}, "
         f"{rates[1]:.0f} and {rates[2]:.6g} rad/s{note if gmo_sine == 0.0 else ''}",
     )
@@ -180,7 +176,7 @@ def torque_free_invariants(grounds: Grounds) -> Judgement:
     loss = np.max(np.abs(energy / energy[0] - 1.0))
     apart = np.degrees(_apart(ours, again)).max()
     return judged(
-        bool(max(drift, loss) < 1e-6 and apart < 1e-3),
+        max(drift, loss) < 1e-6 and apart < 1e-3,
         f"over {ours['time_s'].max():g} s the inertial momentum drifts by {drift:.1e} and the "
         f"energy by {loss:.1e} of their size; an adaptive integration stays within {apart:.1e} deg",
     )
@@ -198,7 +194,7 @@ def rates_oscillate_about_zero(grounds: Grounds) -> Judgement:
         for i in range(3)
     )
     return judged(
-        bool(np.all(last > first)),
+        np.all(last > first),
         f"{listed}; means in the last quarter {_text(mean, 3)} rad/s: a component far from zero "
         f"spins up and does not oscillate about it. The listing's panel of omega_2 shows omega_1, "
         f"which hides this",
@@ -216,7 +212,7 @@ def attitude_oscillation_speeds_up(grounds: Grounds) -> Judgement:
         for k in (0, 3)
     ]
     return judged(
-        bool(np.all(np.diff(means) > 0) and changes[1] > changes[0]),
+        np.all(np.diff(means) > 0) and changes[1] > changes[0],
         f"mean rate by quarters: {', '.join(f'{m:.2f}' for m in means)} rad/s; the MRPs change "
         f"sign {changes[0]} times in the first quarter and {changes[1]} times in the last",
     )
@@ -251,7 +247,7 @@ def step_leaves_artefacts(grounds: Grounds) -> Judgement:
             f"attitude error at the end by step size: {listed}; it does not fall with the step yet",
         )
     return judged(
-        bool(whole[-1] > VISIBLE_DEG),
+        whole[-1] > VISIBLE_DEG,
         f"attitude error at the end by step size: {listed}; {order}"
         f"{'exceeds' if len(visible) else 'never exceeds'} {VISIBLE_DEG:g} deg{since}",
     )
@@ -265,7 +261,7 @@ def gains_meet_requirements(grounds: Grounds) -> Judgement:
     pairs = _closed_loop_eigenvalues(given)
     slowest, most_damped = _decay_and_damping(pairs)
     return judged(
-        bool(
+        (
             np.isclose(slowest.max(), required["largest_decay_time_s"], rtol=1e-4)
             and np.isclose(most_damped.max(), required["largest_damping_ratio"], rtol=1e-4)
         ),
@@ -285,7 +281,7 @@ def performance_formulas(grounds: Grounds) -> Judgement:
     )
     apart = max(np.max(np.abs(slowest / by_35 - 1.0)), np.max(np.abs(damping / by_36 - 1.0)))
     return judged(
-        bool(apart < 1e-4),
+        apart < 1e-4,
         f"decay times {_text(by_35, 1)} s and damping ratios {_text(by_36, 3)} by the formulas "
         f"differ from the eigenvalues' by at most {apart:.1e}",
     )
@@ -371,8 +367,10 @@ def _both(grounds: Grounds, name: str) -> tuple[pd.DataFrame, pd.DataFrame]:
     LookupError
         If one of them overflowed.
     """
-    tables = (grounds.table(f"{stem}.parquet") for stem in ("trajectories", "independent"))
-    ours, again = (t[t["run"] == name].reset_index(drop=True) for t in tables)
+    ours, again = (
+        grounds.rows(f"{stem}.parquet", run=name).reset_index(drop=True)
+        for stem in ("trajectories", "independent")
+    )
     if not np.isfinite(np.vstack([one[SIGMA + OMEGA].to_numpy() for one in (ours, again)])).all():
         raise LookupError(f"the run '{name}' overflowed")
     return ours, again

@@ -1,8 +1,4 @@
-"""Proofs of the errata: each recomputes a quantity as printed and as corrected, and can fail.
-
-The signature is that of `smallsat.evidence.errata.ProofFunction`: the whole configuration and the
-folder with the study's results.
-"""
+"""Proofs of the errata: each recomputes a quantity as printed and as corrected, and can fail."""
 
 from collections.abc import Iterable, Sequence
 
@@ -53,7 +49,7 @@ def table_8_misprint(grounds: Grounds) -> Proof:
         for step in steps
         for threshold in thresholds
     ]
-    again = grounds.table("independent.parquet").query("run == 'mission'")
+    again = grounds.rows("independent.parquet", run="mission")
     sigma_columns = ["sigma_1", "sigma_2", "sigma_3"]
     found.append(again.loc[np.isclose(again["time_s"], time), sigma_columns].to_numpy()[0])
     # Whatever set each run ended in, the printed value might stand for the other one.
@@ -88,9 +84,7 @@ def nadir_frame_sign(grounds: Grounds) -> Proof:
     by_equation_25 = np.sin(lmo.inclination) * np.cos(lmo.raan)
     before, after = _orthogonality_defect(printed), _orthogonality_defect(correct)
     return Proof(
-        holds=bool(
-            before > 0.1 and after < ORTHOGONAL and np.isclose(correct[2, 1], by_equation_25)
-        ),
+        holds=before > 0.1 and after < ORTHOGONAL and np.isclose(correct[2, 1], by_equation_25),
         as_printed=f"entry (3,2) = {printed[2, 1]:.4f}: R R' differs from 1 by {before:.2f}",
         as_corrected=f"entry (3,2) = {correct[2, 1]:.4f}: R R' differs from 1 by {after:.0e}",
         statement=(
@@ -160,7 +154,7 @@ def gmo_frame_roots(grounds: Grounds) -> Proof:
     by_definition = np.array(gmo_frame(given.lmo, given.gmo, time))
     lengths = np.linalg.norm(printed, axis=1)
     return Proof(
-        holds=bool(
+        holds=(
             np.all(np.abs(lengths - 1) > 0.5)
             and np.allclose(correct, by_definition, rtol=0, atol=ORTHOGONAL)
         ),
@@ -182,7 +176,7 @@ def gain_name(grounds: Grounds) -> Proof:
     right = damping_ratios(given.inertia, given.gains).max()
     required = section["requirements"]["largest_damping_ratio"]
     return Proof(
-        holds=bool(np.isclose(right, required) and not np.isclose(wrong, required)),
+        holds=np.isclose(right, required) and not np.isclose(wrong, required),
         as_printed=f"K = {given.gains.p:.4f}: largest damping ratio {wrong:.2f}",
         as_corrected=f"K = {given.gains.k:.4f}, P = {given.gains.p:.4f}: largest ratio {right:.2f}",
         statement=(
@@ -201,7 +195,7 @@ def gain_fraction(grounds: Grounds) -> Proof:
     printed = given.gains.p**2 / (3.0 / 5.0)
     correct = given.gains.p**2 / (required**2 * inertia)
     return Proof(
-        holds=bool(np.isclose(correct, given.gains.k) and not np.isclose(printed, given.gains.k)),
+        holds=np.isclose(correct, given.gains.k) and not np.isclose(printed, given.gains.k),
         as_printed=f"{printed:.5f}",
         as_corrected=f"{correct:.5f}",
         statement=(
@@ -252,7 +246,7 @@ def visibility_overlap(grounds: Grounds) -> Proof:
     separation = np.degrees(np.arccos(np.clip(np.sum(lmo * gmo, axis=1), -1.0, 1.0)))
     closest = np.min(np.abs(separation - limit))
     return Proof(
-        holds=bool(np.any(as_printed != 1) and np.all(corrected == 1)),
+        holds=np.any(as_printed != 1) and np.all(corrected == 1),
         as_printed=f"{as_printed[1]} modes apply at {limit:g} deg",
         as_corrected=f"{corrected[1]} mode applies: not visible is > {limit:g} deg",
         statement=(
@@ -289,7 +283,7 @@ def second_rate_panel(grounds: Grounds) -> Proof:
 def reference_rate_frame(grounds: Grounds) -> Proof:
     """Figs. 7, 8 and 10 compare the body rate with the reference's rate in inertial components."""
     given = parameters(grounds.config["mars"])
-    last = grounds.table("trajectories.parquet").query("run == 'nadir'").iloc[-1]
+    last = grounds.rows("trajectories.parquet", run="nadir").iloc[-1]
     body_rate, reference_rate = (
         last[[f"{name}_{axis}" for axis in "123"]].to_numpy(dtype=float)
         for name in ("omega", "omega_ref")
@@ -316,7 +310,7 @@ def day_length(grounds: Grounds) -> Proof:
     listed = grounds.ledger.value("listing-a-l-task-11/tf-commented-out/day-long-run").value
     day = grounds.ledger.value(MARS_DAY).value
     return Proof(
-        holds=bool(abs(period - day) < 0.5 < abs(period - listed)),
+        holds=abs(period - day) < 0.5 < abs(period - listed),
         as_printed=f"{listed:.0f} s",
         as_corrected=f"{day:.0f} s",
         statement=(

@@ -1,8 +1,4 @@
-"""Predicates of the document's prose claims.
-
-The signature is that of `smallsat.evidence.claims.Predicate`: the whole configuration and the
-folder with the study's results.
-"""
+"""Predicates of the document's prose claims."""
 
 import numpy as np
 import pandas as pd
@@ -69,7 +65,7 @@ def faster_with_thrust(grounds: Grounds) -> Judgement:
     times = sweep[f"{WHOLE} (s)"].to_numpy()
     products = times * np.sqrt(sweep["thrust_m_s2"].to_numpy())
     return judged(
-        bool((np.diff(times) < 0.0).all()),
+        (np.diff(times) < 0.0).all(),
         f"the optimal time falls as one over the root of the thrust: their product is "
         f"{products.min():.0f} to {products.max():.0f} over thrusts from "
         f"{sweep['thrust_m_s2'].min():g} to {sweep['thrust_m_s2'].max():g} m/s^2",
@@ -85,8 +81,7 @@ def no_thrust_is_best_for_accuracy(grounds: Grounds) -> Judgement:
         not (worst < CENTRED and multiplier < 1.0),
         f"with every thrust tried the rings are crossed at their centres, to {worst:.0e} m, and a "
         f"metre of miss would save {multiplier:.2f} s at most while it costs 1 s: the best "
-        f"accuracy "
-        f"is the same, 0, for all. What the document compares is how its solves ended",
+        f"accuracy is the same, 0, for all. What the document compares is how its solves ended",
     )
 
 
@@ -97,8 +92,7 @@ def mo_can_pass(grounds: Grounds) -> Judgement:
     return judged(
         not passed,
         f"with each axis limited by itself Mo crosses all {row['rings']:.0f} rings at their "
-        f"centres "
-        f"along their normals in {row['time_s']:.1f} s",
+        f"centres along their normals in {row['time_s']:.1f} s",
     )
 
 
@@ -108,24 +102,21 @@ def mo_slower_than_meeny(grounds: Grounds) -> Judgement:
     given = parameters(grounds.config["racing"])
     mo = next(c for c in given.races["scenario-1"].cubesats if c.name == "Mo")
     return judged(
-        bool(races["Mo"] > races["Meeny"]),
+        races["Mo"] > races["Meeny"],
         f"optimally too: {races['Mo']:.1f} against {races['Meeny']:.1f} s. A sphere inside Mo's "
-        f"box "
-        f"has {min(mo.axis_thrust or (mo.thrust,)):.4g} m/s^2 and a sphere around it "
+        f"box has {min(mo.axis_thrust or (mo.thrust,)):.4g} m/s^2 and a sphere around it "
         f"{mo.thrust:.4g} m/s^2; Meeny's lies between",
     )
 
 
 def direction_is_the_trouble(grounds: Grounds) -> Judgement:
     """Our solve of the listings: rings missed, and crossed off their normals."""
-    races = grounds.table("races.csv")
-    rows = races[races["solution"] == AS_PUBLISHED]
+    rows = grounds.rows("races.csv", solution=AS_PUBLISHED)
     rings = rows["rings"].sum()
     return judged(
-        bool(rows["off_axis"].sum() > rows["missed"].sum()),
-        f"in our solve of the listings {rows['off_axis'].sum()} of {rings} crossings are off "
-        f"the normal by more than a degree, and {rows['missed'].sum()} rings are missed. The "
-        f"document "
+        rows["off_axis"].sum() > rows["missed"].sum(),
+        f"in our solve of the listings {rows['off_axis'].sum()} of {rings} crossings are off the "
+        f"normal by more than a degree, and {rows['missed'].sum()} rings are missed. The document "
         f"prints only sums; by them its solves came closer to the rings than ours",
     )
 
@@ -139,14 +130,11 @@ def full_thrust_against_primer(grounds: Grounds) -> Judgement:
     angle, largest = (float(free[f"primer_angle_{w}_deg"].max()) for w in ("median", "largest"))
     axial = _complete(meshes[meshes["sign_share"].notna()], "time_s")
     return judged(
-        bool(share > 0.98 and largest < 1.0 and (axial["sign_share"] == 1.0).all()),
+        share > 0.98 and largest < 1.0 and (axial["sign_share"] == 1.0).all(),
         f"on the optima {100 * share:.1f} % of the held pieces or more have full thrust, and it "
-        f"points "
-        f"against the primer of the multipliers to {angle:.1e} deg in the median, {largest:.1e} "
-        f"deg at "
-        f"most; Mo's axes have the sign that the primer asks for in every piece. The pieces "
-        f"without "
-        f"full thrust are those in which the primer turns about",
+        f"points against the primer of the multipliers to {angle:.1e} deg in the median, "
+        f"{largest:.1e} deg at most; Mo's axes have the sign that the primer asks for in every "
+        f"piece. The pieces without full thrust are those in which the primer turns about",
     )
 
 
@@ -157,19 +145,17 @@ def hamiltonian_is_minus_one(grounds: Grounds) -> Judgement:
     median = float(_meshes(grounds)["hamiltonian_median_error"].max())
     fine = table[table["intervals"] == table["intervals"].max()]
     return judged(
-        bool(found.iloc[-1] < found.iloc[0] and fine["hamiltonian_median_error"].max() < 0.01),
+        found.iloc[-1] < found.iloc[0] and fine["hamiltonian_median_error"].max() < 0.01,
         f"its largest error goes from {found.iloc[0]:.1e} with {found.index[0]} held pieces a "
-        f"segment "
-        f"to {found.iloc[-1]:.1e} with {found.index[-1]}; the median of the worst CubeSat is "
-        f"{median:.1e}. With the listing's costates it is not constant, see the errata",
+        f"segment to {found.iloc[-1]:.1e} with {found.index[-1]}; the median of the worst CubeSat "
+        f"is {median:.1e}. With the listing's costates it is not constant, see the errata",
     )
 
 
 def adjoints_jump(grounds: Grounds) -> Judgement:
     """Jumps of the costates at rings, on the whole-course optimum."""
     largest = float(_meshes(grounds)["largest_ring_multiplier_s_m"].max())
-    segments = grounds.table("optima-scenario-1-segments.csv")
-    rows = segments[(segments["solution"] == WHOLE) & (segments["cubesat"] == "Meeny")]
+    rows = grounds.rows("optima-scenario-1-segments.csv", solution=WHOLE, cubesat="Meeny")
     rows = _complete(rows, "px")
     typical = float(np.linalg.norm(rows[["px", "py", "pz"]].to_numpy(), axis=1).mean())
     return judged(
@@ -188,8 +174,7 @@ def not_smooth(grounds: Grounds) -> Judgement:
         worst > CENTRED,
         f"the miss |r - r_ring| has its kink at zero, and that is where the optimum lies "
         f"({worst:.0e} m summed over a course); Mo's thrust jumps by {jump:.3f} m/s^2 or more "
-        f"where a "
-        f"primer component crosses the deadzone",
+        f"where a primer component crosses the deadzone",
     )
 
 
@@ -200,18 +185,17 @@ def transversality_left_out(grounds: Grounds) -> Judgement:
     return judged(
         not (ours < 0.05 and theirs > 0.1),
         f"Eq. 22 makes the primer vanish along the normal at a ring. Its component there has a "
-        f"median "
-        f"share of {ours:.1e} on our segments, and {theirs:.2f} in the solve of the listing, which "
-        f"never asks for it; without it seven unknowns stay undetermined",
+        f"median share of {ours:.1e} on our segments, and {theirs:.2f} in the solve of the "
+        f"listing, which never asks for it; without it seven unknowns stay undetermined",
     )
 
 
 def _primer_at_rings(grounds: Grounds, stem: str, solution: str) -> float:
     """Median share of the primer along the normal at the end of Meeny's segments in Scenario 1."""
-    path = grounds.table(f"{stem}-scenario-1-trajectories.parquet")
+    name = f"{stem}-scenario-1-trajectories.parquet"
+    rows = _complete(grounds.rows(name, solution=solution, cubesat="Meeny"), "pvx")
     course = grounds.table("course-scenario-1.csv")
     normals = course[["nx", "ny", "nz"]].to_numpy(dtype=float)[1:-1]
-    rows = _complete(path[(path["solution"] == solution) & (path["cubesat"] == "Meeny")], "pvx")
     last = rows.groupby("segment").last()[["pvx", "pvy", "pvz"]].to_numpy()[: len(normals)]
     largest = (
         rows.groupby("segment")[["pvx", "pvy", "pvz"]]
@@ -246,9 +230,8 @@ def minimum_cost_is_no_bound_of_the_race(grounds: Grounds) -> Judgement:
     return judged(
         max(spread) < NOTHING,
         f"it depends on the path, as it starts from the speed at which each ring was crossed: "
-        f"whole "
-        f"course, segment by segment, our solve of the listing, printed: {'; '.join(texts)} s. The "
-        f"better path may have the larger one, so it bounds no race",
+        f"whole course, segment by segment, our solve of the listing, printed: {'; '.join(texts)} "
+        f"s. The better path may have the larger one, so it bounds no race",
     )
 
 
@@ -260,10 +243,8 @@ def start_positions_hardly_matter(grounds: Grounds) -> Judgement:
     return judged(
         spread > MASSIVE * float(times.mean()),
         f"from {len(table)} random places the optimal times lie within {spread:.3f} s of each "
-        f"other, "
-        f"{100 * spread / times.mean():.1g} % of {times.mean():.1f} s, all with accuracy 0. The "
-        f"printed "
-        f"differences are those of solves that ended elsewhere",
+        f"other, {100 * spread / times.mean():.1g} % of {times.mean():.1f} s, all with accuracy "
+        f"0. The printed differences are those of solves that ended elsewhere",
     )
 
 
@@ -273,9 +254,8 @@ def potential_is_equal(grounds: Grounds) -> Judgement:
     return Judgement(
         "holds" if times.index[0] == "Mo" else "fails",
         f"by the optimum Mo has it, and by next to nothing: "
-        f"{', '.join(f'{name} {value:.3f}' for name, value in times.items())} s. The reason given, "
-        f"its "
-        f"lowest minimum possible cost, is no measure of that",
+        f"{', '.join(f'{name} {value:.3f}' for name, value in times.items())} s. The reason "
+        f"given, its lowest minimum possible cost, is no measure of that",
     )
 
 
@@ -292,8 +272,7 @@ def whole_course_remedies(grounds: Grounds) -> Judgement:
         all(better),
         f"with all rings in one problem every ring is crossed along its normal, and the times are "
         f"shorter than segment by segment by {texts[0]} in Scenario 1 and {texts[1]} in Scenario "
-        f"2. "
-        f"For the direction alone it is not needed: well posed, single segments keep it too",
+        f"2. For the direction alone it is not needed: well posed, single segments keep it too",
     )
 
 
@@ -311,8 +290,7 @@ def thousand_times(grounds: Grounds) -> Judgement:
     return judged(
         grounds.ledger.value(factor).matches(ratios[1]),
         f"{ratios[1]:.0f} times for the largest values of both ranges, {ratios[0]:.0f} times for "
-        f"the "
-        f"smallest",
+        f"the smallest",
     )
 
 
@@ -321,7 +299,7 @@ def cost_is_time_plus_accuracy(grounds: Grounds) -> Judgement:
     table = printed_scores(grounds.ledger)
     errors = (table["cost"] - table["time_s"] - table["accuracy_m"]).abs()
     return judged(
-        bool(errors.max() <= ROUNDING),
+        errors.max() <= ROUNDING,
         f"in all {len(errors)} rows, to {errors.max():.3f} at most, which is rounding",
     )
 
@@ -360,7 +338,7 @@ def scenario_2_recovered(grounds: Grounds) -> Judgement:
     half_unit = grounds.ledger.value("table-3/initial-position/scenario-2-eeny/x").half_unit
     to_digit = int((error <= half_unit).sum())
     return judged(
-        bool(to_digit >= 7 and along <= 0.5 and len(day) == 1 and others.min() > 100.0),
+        to_digit >= 7 and along <= 0.5 and len(day) == 1 and others.min() > 100.0,
         f"seed {seed}, the serial number of {day['day'].iloc[0]}, gives {rings} rings, the printed "
         f"start along the track, and {to_digit} of 8 printed x and z to the digit, the last one "
         f"within "
@@ -380,7 +358,7 @@ def published_solve_is_erratic(grounds: Grounds) -> Judgement:
     )
     return judged(
         # By how much is up to the last bits of every step, so that no ratio can be asked for.
-        bool(costs.max() > (1.0 + MASSIVE) * costs.min() and (table["not_converged"] > 0).all()),
+        costs.max() > (1.0 + MASSIVE) * costs.min() and (table["not_converged"] > 0).all(),
         f"Meeny, Scenario 1: {text}",
     )
 
@@ -392,7 +370,7 @@ def penalty_is_exact(grounds: Grounds) -> Judgement:
     first = zip(table["cubesat"][:4], meshes[:4], strict=True)
     text = ", ".join(f"{name} {value:.3f}" for name, value in first)
     return judged(
-        bool((meshes < 1.0).all()),
+        (meshes < 1.0).all(),
         f"what a metre off a ring's centre could save is its multiplier, at most "
         f"{meshes.max():.3f} s "
         f"over both scenarios ({text} in Scenario 1), and it costs 1 s: locally no miss pays",
@@ -415,9 +393,9 @@ def optimum_is_confirmed(grounds: Grounds) -> Judgement:
     dp = _complete(grounds.table("dynamic-programming.csv"), "time_s").iloc[-1]
     name, scenario = dp["cubesat"], dp["scenario"]
     whole = float(_races(grounds, WHOLE, scenario).loc[name, "time_s"])
-    indirect = _complete(races[races["solution"] == INDIRECT], "rings")
+    indirect = _complete(grounds.rows("races.csv", solution=INDIRECT), "rings")
     return judged(
-        bool(
+        (
             (ours["not_converged"] == 0).all()
             and ours["residual"].max() < CENTRED
             and apart < AGREES
@@ -430,17 +408,15 @@ def optimum_is_confirmed(grounds: Grounds) -> Judgement:
         f"random guesses converge, to times within {max(apart, 1e-12):.0e} s; "
         f"{int(meshes['converged'].sum())} of {len(meshes)} solves on meshes of up to "
         f"{meshes['intervals'].max()} pieces converge, the finer ones shorten the times by "
-        f"{100 * change.max():.2f} % at most; dynamic programming "
-        f"over {name}'s ring speeds gives {dp['time_s']:.3f} s against {whole:.3f} s; of the "
-        f"{int(indirect['segments'].sum())} segments of the indirect method "
-        f"{int(indirect['not_converged'].sum())} do not converge",
+        f"{100 * change.max():.2f} % at most; dynamic programming over {name}'s ring speeds gives "
+        f"{dp['time_s']:.3f} s against {whole:.3f} s; of the {int(indirect['segments'].sum())} "
+        f"segments of the indirect method {int(indirect['not_converged'].sum())} do not converge",
     )
 
 
 def published_among_random(grounds: Grounds) -> Judgement:
     """Printed times of Scenario 2 among optimal times of random courses with as many rings."""
-    table = grounds.table("random-courses.csv")
-    own = table[table["rule"] == "generator"]
+    own = grounds.rows("random-courses.csv", rule="generator")
     times = _complete(own[own["time_s"].notna()], "time_s")["time_s"]
     ours = float(_all_races(grounds, WHOLE, "scenario-2")["time_s"].mean())
     ranks = {
@@ -451,9 +427,7 @@ def published_among_random(grounds: Grounds) -> Judgement:
     return judged(
         sum(rank > 50.0 for rank in ranks.values()) == len(ranks),
         f"{len(times)} of {len(own)} random courses solved: {times.mean():.1f} s on average, "
-        f"standard "
-        f"deviation {times.std():.1f} s. The printed times, misses not counted, are longer than "
-        f"{', '.join(f'{rank:.1f} % ({name})' for name, rank in ranks.items())} of them; the "
-        f"optimum "
-        f"of the course itself, {ours:.1f} s, is longer than {place:.0f} %",
+        f"standard deviation {times.std():.1f} s. The printed times, misses not counted, are "
+        f"longer than {', '.join(f'{rank:.1f} % ({name})' for name, rank in ranks.items())} of "
+        f"them; the optimum of the course itself, {ours:.1f} s, is longer than {place:.0f} %",
     )

@@ -1,8 +1,4 @@
-"""Proofs of the errata: each recomputes a quantity as printed and as corrected, and can fail.
-
-The signature is that of `smallsat.evidence.errata.ProofFunction`: the whole configuration and the
-folder with the study's results.
-"""
+"""Proofs of the errata: each recomputes a quantity as printed and as corrected, and can fail."""
 
 from dataclasses import replace
 
@@ -79,15 +75,13 @@ def start_covariance(grounds: Grounds) -> Proof:
     misfits, _, wrong = _matched(grounds, given, printed)
     probability = scatter_probability(given, printed)
     return Proof(
-        holds=bool(fits >= of - 1 and misfits < of // 2 and probability < PROBABLE),
+        holds=fits >= of - 1 and misfits < of // 2 and probability < PROBABLE,
         as_printed=f"{misfits} of {of} coordinates, off by up to {wrong:.1f} m",
         as_corrected=f"{fits} of {of} to the printed digit, the rest within {error:.2f} m",
         statement=(
             f"the normal draws after the courses' in the streams of both seeds give {fits} of "
             f"{of} printed x and z to the digit with a variance of {right:.2f} m^2, and {misfits} "
-            f"with "
-            f"{printed:g} m^2; without the streams, the scatter of Table 1 around the "
-            f"known "
+            f"with {printed:g} m^2; without the streams, the scatter of Table 1 around the known "
             f"start has a probability of {probability:.2g} under the printed variance and "
             f"{scatter_probability(given, right):.2g} under the other"
         ),
@@ -105,7 +99,7 @@ def start_ring_comment(grounds: Grounds) -> Proof:
     fits, of, _ = _matched(grounds, given, right)
     misfits, _, wrong = _matched(grounds, given, right * printed / used)
     return Proof(
-        holds=bool(fits >= of - 1 and misfits < of // 2),
+        holds=fits >= of - 1 and misfits < of // 2,
         as_printed=f"{misfits} of {of} coordinates, off by up to {wrong:.1f} m",
         as_corrected=f"{fits} of {of} coordinates",
         statement=(
@@ -129,7 +123,7 @@ def angle_steps(grounds: Grounds) -> Proof:
         misfits.append(not printed.matches(whole))
         texts.append((f"{whole:.1f}", f"{halved:.1f}", grounds.ledger.literal(y)))
     return Proof(
-        holds=bool(all(fits) and all(misfits)),
+        holds=all(fits) and all(misfits),
         as_printed=", ".join(text[0] for text in texts) + " m",
         as_corrected=", ".join(text[1] for text in texts) + " m",
         statement=(
@@ -166,7 +160,7 @@ def costate_transpose(grounds: Grounds) -> Proof:
     right_first, right_last = hamiltonian_drift(grounds.config, transposed=True)
     drift, rest = abs(last - first), abs(right_last - right_first)
     return Proof(
-        holds=bool(drift > DRIFTING * abs(first) and rest < CONSTANT * abs(right_first)),
+        holds=drift > DRIFTING * abs(first) and rest < CONSTANT * abs(right_first),
         as_printed=f"H from {first:.4f} to {last:.4f} in {SECONDS:g} s",
         as_corrected=f"H constant to {max(rest, 1e-15):.0e}",
         statement=(
@@ -204,7 +198,7 @@ def adjoint_transition(grounds: Grounds) -> Proof:
     mended = 3.0 * t - 4.0 / n * np.sin(n * t)
     right = abs(mended - exact[4, 1]) < 1e-9 * abs(exact[4, 1])
     return Proof(
-        holds=bool(wrong == [(5, 2)] and right),
+        holds=wrong == [(5, 2)] and right,
         as_printed=f"{printed[4, 1]:.3f} s after {t:g} s",
         as_corrected=f"{mended:.3f} s",
         statement=(
@@ -220,15 +214,14 @@ def ring_size(grounds: Grounds) -> Proof:
     course = parameters(grounds.config["racing"]).races["scenario-1"].course
     least = [float(np.min(np.diag(axes))) for axes in course.semi_axes]
     return Proof(
-        holds=bool(max(least) == 0.0 and course.sizes.min() > 0.0),
+        holds=max(least) == 0.0 and course.sizes.min() > 0.0,
         as_printed="0 m for every ring",
         as_corrected=f"{course.sizes.min():.2f} to {course.sizes.max():.2f} m",
         statement=(
             f"for all {course.rings} rings the least entry of diag(a, b) is 0, while the smaller "
             f"axes are {course.sizes.min():.2f} to {course.sizes.max():.2f} m: by the listing no "
             f"point but the centre is inside. The listing that builds S is not printed; it is "
-            f"taken "
-            f"as Section I defines it"
+            f"taken as Section I defines it"
         ),
     )
 
@@ -246,7 +239,7 @@ def axial_thrust(grounds: Grounds) -> Proof:
     best = np.array(thrust_components(PRIMER, AXIS_BY_AXIS, limits, deadzone))
     exceeds = float((np.abs(listing) / limits).max())
     return Proof(
-        holds=bool(
+        holds=(
             equation[1] == 0.0
             and abs(listing[1]) > 0.0
             and exceeds > 1.0
@@ -257,10 +250,8 @@ def axial_thrust(grounds: Grounds) -> Proof:
         statement=(
             f"for a primer of {_vector(PRIMER)} Eq. 24 gives {_vector(equation)} m/s^2, the code "
             f"{_vector(listing)}, which has the axis that should be off and {exceeds:.2f} times "
-            f"the "
-            f"limit of another, and the minimiser over the limits of Table 1 {_vector(best)}; p.u "
-            f"is "
-            f"{PRIMER @ equation:.3f}, {PRIMER @ listing:.3f} and {PRIMER @ best:.3f}"
+            f"the limit of another, and the minimiser over the limits of Table 1 {_vector(best)}; "
+            f"p.u is {PRIMER @ equation:.3f}, {PRIMER @ listing:.3f} and {PRIMER @ best:.3f}"
         ),
     )
 
@@ -274,12 +265,8 @@ def equality_ranks(grounds: Grounds, transposed: bool) -> tuple[int, int, int]:
 
     The segment is Meeny's first by the indirect method, where all conditions hold.
     """
-    segments = grounds.table("optima-scenario-1-segments.csv")
-    row = segments[
-        (segments["solution"] == INDIRECT)
-        & (segments["cubesat"] == "Meeny")
-        & (segments["segment"] == 0)
-    ].iloc[0]
+    name = "optima-scenario-1-segments.csv"
+    row = grounds.rows(name, solution=INDIRECT, cubesat="Meeny", segment=0).iloc[0]
     if not row["converged"]:
         raise LookupError("no converged segment")
     z = np.r_[row[["px", "py", "pz", "pvx", "pvy", "pvz"]].to_numpy(dtype=float), row["duration_s"]]
@@ -329,17 +316,15 @@ def redundant_equalities(grounds: Grounds) -> Proof:
     segments = grounds.table("as-published-scenario-1-segments.csv")
     share = float((~segments["converged"]).mean())
     return Proof(
-        holds=bool(moving <= 5 and rank == 3 and pointing == 2 and slipped == 4),
+        holds=moving <= 5 and rank == 3 and pointing == 2 and slipped == 4,
         as_printed="12 equalities",
         as_corrected=f"{rank} independent ones",
         statement=(
             f"at a converged segment only {moving} of the twelve rows depend on the unknowns at "
-            f"all, "
-            f"the three rows of pointing have rank {pointing}, and all together rank {rank}: two "
-            f"of "
-            f"direction, and H = -1, which the length of the costates can always meet. With the "
-            f"listing's costates H0 = Hf is no identity but a condition of its own, rank "
-            f"{slipped}. In "
-            f"our elastic solve of the listing {100 * share:.0f} % of the segments end unconverged"
+            f"all, the three rows of pointing have rank {pointing}, and all together rank {rank}: "
+            f"two of direction, and H = -1, which the length of the costates can always meet. "
+            f"With the listing's costates H0 = Hf is no identity but a condition of its own, rank "
+            f"{slipped}. In our elastic solve of the listing {100 * share:.0f} % of the segments "
+            f"end unconverged"
         ),
     )

@@ -1,8 +1,4 @@
-"""Proofs of the errata: each recomputes a quantity as printed and as corrected, and can fail.
-
-The signature is that of `smallsat.evidence.errata.ProofFunction`: the whole configuration and the
-folder with the study's results.
-"""
+"""Proofs of the errata: each recomputes a quantity as printed and as corrected, and can fail."""
 
 import numpy as np
 
@@ -14,6 +10,7 @@ from smallsat.studies.rendezvous.inference.search import printed_steps
 from smallsat.studies.rendezvous.model.geometry import cone_faces, rotated
 from smallsat.studies.rendezvous.model.prediction import terminal_weight, transition
 from smallsat.studies.rendezvous.parameters import law, start_state
+from smallsat.studies.rendezvous.simulation.flights import STATE
 
 ROUNDING = 1e-9
 
@@ -41,7 +38,7 @@ def control_bound_unit(grounds: Grounds) -> Proof:
     printed = printed_steps(section, grounds.ledger)
     fewest = min(printed[case, "far"] for case in ("v-bar", "r-bar"))
     return Proof(
-        holds=bool(whole and pulses[0] > 1.0 and steps < fewest / 2 < impulse_steps),
+        holds=whole and pulses[0] > 1.0 and steps < fewest / 2 < impulse_steps,
         as_printed=f"{distance:.0f} m in {np.ceil(steps):.0f} far-range steps",
         as_corrected=f"in {np.ceil(impulse_steps):.0f} steps; printed are {fewest}",
         statement=(
@@ -78,14 +75,13 @@ def thrust_as_delta_v(grounds: Grounds) -> Proof:
     name = "chapter-1/maximum-thrust-order-of-small-satellite-propulsion/background"
     printed = grounds.ledger.value(name)
     return Proof(
-        holds=bool(printed.matches(craft["thruster_N"]) and abs(seconds - 1.0) > 0.5),
+        holds=printed.matches(craft["thruster_N"]) and abs(seconds - 1.0) > 0.5,
         as_printed="a delta-v in newtons",
         as_corrected=f"a thrust: {craft['thruster_N']:g} N < {printed.value:g} N",
         statement=(
             f"Thrust and delta-v differ by a time over the mass: the largest delta-v of a step is "
-            f"{bound:g} m/s, {seconds:.0f} s of {craft['thruster_N']:g} N on "
-            f"{craft['mass_kg']:g} kg; Section 2.1.2 cites the same source for thrusts up to "
-            f"{printed.value:g} N"
+            f"{bound:g} m/s, {seconds:.0f} s of {craft['thruster_N']:g} N on {craft['mass_kg']:g} "
+            f"kg; Section 2.1.2 cites the same source for thrusts up to {printed.value:g} N"
         ),
     )
 
@@ -120,7 +116,7 @@ def on_time(grounds: Grounds) -> Proof:
     force = mass * delta_v / sample  # "F dt = m dv"
     printed, correct = force / thrust, force * sample / thrust
     return Proof(
-        holds=bool(
+        holds=(
             abs(thrust * correct / mass - delta_v) < ROUNDING
             and abs(thrust * printed / mass - delta_v) > 0.5 * delta_v
         ),
@@ -155,7 +151,7 @@ def last_state_twice(grounds: Grounds) -> Proof:
     corrected = running + float(state @ rest @ state)
     printed = corrected + float(state @ weights @ state)
     return Proof(
-        holds=bool(
+        holds=(
             abs(corrected / infinite - 1.0) < ROUNDING
             and abs(printed / infinite - 1.0) > 100.0 * ROUNDING
         ),
@@ -188,7 +184,7 @@ def quadratic_stage_cost(grounds: Grounds) -> Proof:
     correct = curvature(lambda u: u @ (weight * u))
     exact = 2.0 * weight * float(direction @ direction)
     return Proof(
-        holds=bool(abs(printed) < 1e-6 * exact and abs(correct / exact - 1.0) < 1e-6),
+        holds=abs(printed) < 1e-6 * exact and abs(correct / exact - 1.0) < 1e-6,
         as_printed="no curvature: the 1-norm of Eq. 2.11a again",
         as_corrected=f"u' R u has a curvature of {correct:.0f} along a sample direction",
         statement=(
@@ -216,7 +212,7 @@ def docking_cone_apex(grounds: Grounds) -> Proof:
         printed = max(printed, float(np.max(faces @ (port - given.port * last))))
         corrected = max(corrected, float(np.max(faces @ (port - port))))
     return Proof(
-        holds=bool(printed > ROUNDING and corrected <= 0.0),
+        holds=printed > ROUNDING and corrected <= 0.0,
         as_printed=f"a docked chaser is outside by up to {1000.0 * printed:.0f} mm",
         as_corrected="a docked chaser is at the tip of the cone at every stage",
         statement=(
@@ -228,14 +224,16 @@ def docking_cone_apex(grounds: Grounds) -> Proof:
     )
 
 
+def _places(grounds: Grounds, **columns: str) -> np.ndarray:
+    """Positions of a flight at its samples, m, shape (samples, 3)."""
+    return grounds.rows("flights.parquet", **columns)[STATE[:3]].to_numpy(dtype=float)
+
+
 def rendezvous_end_distance(grounds: Grounds) -> Proof:
     """Algorithm 1: the end as printed never comes, for the keep-out constraint forbids it."""
     keep_out = law(grounds.config["rendezvous"], "v-bar").keep_out
-    flights = grounds.table("flights.parquet")
-    far = flights[(flights["flight"] == "v-bar") & (flights["phase"] == "far")]
-    distance = np.linalg.norm(far[["x_m", "y_m", "z_m"]].to_numpy(), axis=1)
-    ends = flights[(flights["flight"] == "v-bar") & (flights["phase"] == "mid")].iloc[0]
-    end = float(np.linalg.norm(ends[["x_m", "y_m", "z_m"]].to_numpy(dtype=float)))
+    far, mid = (_places(grounds, flight="v-bar", phase=phase) for phase in ("far", "mid"))
+    distance, end = np.linalg.norm(far, axis=1), float(np.linalg.norm(mid[0]))
     never = bool((distance > keep_out - 1e-6 * keep_out).all() and end > keep_out)
     return Proof(
         holds=never,
@@ -255,13 +253,11 @@ def rendezvous_end_cone(grounds: Grounds) -> Proof:
     given = law(section, "v-bar")
     faces = np.empty((section["cone_faces"], 3))
     cone_faces(np.array(given.axis), np.tan(given.cone_angles[0]), faces)
-    flights = grounds.table("flights.parquet")
-    mid = flights[(flights["flight"] == "v-bar") & (flights["phase"] == "mid")].iloc[0]
-    end = mid[["x_m", "y_m", "z_m"]].to_numpy(dtype=float)
+    end = _places(grounds, flight="v-bar", phase="mid")[0]
     start = start_state(section)[:3]
     inside, outside = float((faces @ end).max()), float((faces @ start).max())
     return Proof(
-        holds=bool(len(faces) != len(end) and inside <= ROUNDING < outside),
+        holds=len(faces) != len(end) and inside <= ROUNDING < outside,
         as_printed=f"{len(end)} entries against {len(faces)}",
         as_corrected=f"largest of H x: {outside:.0f} m at the start, {inside:.1f} m at the end",
         statement=(
@@ -275,15 +271,15 @@ def rendezvous_end_cone(grounds: Grounds) -> Proof:
 def approach_end_vector(grounds: Grounds) -> Proof:
     """Algorithm 1: x <= r2 by components is true far away, on the other side of the target."""
     overshoot = law(grounds.config["rendezvous"], "v-bar").overshoot
-    flights = grounds.table("flights.parquet")
-    mid = flights[flights["flight"].isin(CASE_TABLES) & (flights["phase"] == "mid")]
+    mid = grounds.rows("flights.parquet", phase="mid")
+    mid = mid[mid["flight"].isin(CASE_TABLES)]
     # The motion is linear: mirrored at the target, a flight is one to a port on the other side.
-    mirrored = -mid[["x_m", "y_m", "z_m"]].to_numpy()
+    mirrored = -mid[STATE[:3]].to_numpy()
     distance = np.linalg.norm(mirrored, axis=1)
     wrong = (mirrored <= overshoot).all(axis=1) & (distance > 2.0 * overshoot)
     reach = float(distance[wrong].max(initial=0.0))
     return Proof(
-        holds=bool(wrong.any()),
+        holds=wrong.any(),
         as_printed=f"true at up to {reach:.0f} m from the target",
         as_corrected=f"|x| <= r2 is false wherever |x| > {overshoot:.1f} m",
         statement=(

@@ -8,13 +8,8 @@ import numpy as np
 
 from smallsat.evidence.errata import Proof
 from smallsat.evidence.grounds import Grounds
-from smallsat.studies.rendezvous.evidence.sensitivity_claims import (
-    DELTA_V,
-    SIMILAR,
-    TIME,
-    Sweep,
-    infeasible_share,
-)
+from smallsat.studies.rendezvous.evidence.sensitivity_claims import SIMILAR
+from smallsat.studies.rendezvous.evidence.sweeps import DELTA_V, TIME, Sweep, infeasible_share
 from smallsat.studies.rendezvous.monte_carlo.cases import LP, NO_SET_POINT
 from smallsat.studies.rendezvous.monte_carlo.tables import totals
 
@@ -47,14 +42,14 @@ def approach_figures_swapped(grounds: Grounds) -> Proof:
     times = _values(grounds, "section-4-3/approach-sample-times-tested")
     missing = [t for t in times if t not in legend]
     called_infeasible = grounds.ledger.value("section-4-3/infeasible-sample-time/n2-5").value
-    sweep = Sweep(grounds.config, grounds.results, "approach")
+    sweep = Sweep(grounds, "approach")
     shares = {
         n: float(infeasible_share(sweep.rows(n, called_infeasible), "approach").mean())
         for n in sweep.horizons[:2]
     }
     short, longer = shares
     return Proof(
-        bool(missing == [called_infeasible] and shares[longer] < 0.5 * shares[short]),
+        missing == [called_infeasible] and shares[longer] < 0.5 * shares[short],
         f"Figure 4.7 would show N2 = {longer}, at which {100 * shares[longer]:.0f} % of our "
         f"approaches with {called_infeasible:g} s meet an infeasible program",
         f"Figure 4.7 shows N2 = {short}, at which {100 * shares[short]:.0f} % do",
@@ -87,14 +82,11 @@ def docking_axis_label(grounds: Grounds) -> Proof:
     )
     most, largest = {}, {}
     for phase in ("approach", "docking"):
-        sweep = Sweep(grounds.config, grounds.results, phase)
+        sweep = Sweep(grounds, phase)
         most[phase] = _largest(sweep, "steps")
         largest[phase] = _largest(sweep, DELTA_V)
     return Proof(
-        bool(
-            abs(most["docking"] - end) < abs(most["approach"] - end)
-            and largest["approach"] > delta_v
-        ),
+        abs(most["docking"] - end) < abs(most["approach"] - end) and largest["approach"] > delta_v,
         f"approach: up to {most['approach']:.0f} intervals and {largest['approach']:.1f} m/s",
         f"docking: up to {most['docking']:.0f} intervals",
         f"the axes reach {end:.0f} intervals and fractions of a metre per second, as "
@@ -113,9 +105,8 @@ def _largest(sweep: Sweep, quantity: str) -> float:
 def appendix_caption(grounds: Grounds) -> Proof:
     """Two figures of one caption in sections of two variants, and whether these look alike."""
     same = grounds.captions["Figure A.3"] == grounds.captions["Figure A.6"]
-    table = grounds.table("studies/domain.parquet")
     one, other = (
-        table[(table["case"] == case) & table["completed"]].set_index("sample")
+        grounds.rows("studies/domain.parquet", case=case, completed=True).set_index("sample")
         for case in (NO_SET_POINT, LP)
     )
     both = one.index.intersection(other.index)
@@ -128,7 +119,7 @@ def appendix_caption(grounds: Grounds) -> Proof:
         for quantity in (DELTA_V, TIME)
     }
     return Proof(
-        bool(same and max(abs(r - 1.0) for r in ratio.values()) > SIMILAR),
+        same and max(abs(r - 1.0) for r in ratio.values()) > SIMILAR,
         "two figures of the LP, one in each section, and none of the QP without set point",
         "one figure of each variant",
         f"Figures A.3 and A.6, in the sections of the two variants, have one caption. In our runs "

@@ -3,17 +3,16 @@
 from collections.abc import Iterator
 from itertools import pairwise
 from math import inf, nan
-from pathlib import Path
 
 import numpy as np
 from scipy.special import gammaln
 from scipy.stats import betabinom
 
-from smallsat.config import Config
+from smallsat.evidence.grounds import Grounds
 from smallsat.evidence.observation import Observation
 from smallsat.statistics.bootstrap import effect
 from smallsat.studies.rendezvous.evidence.robustness_claims import mean_deviation
-from smallsat.studies.rendezvous.evidence.sensitivity_claims import (
+from smallsat.studies.rendezvous.evidence.sweeps import (
     DELTA_V,
     STEPS,
     TIME,
@@ -26,47 +25,50 @@ from smallsat.studies.rendezvous.monte_carlo.tables import column
 from smallsat.studies.rendezvous.simulation.disturbances import thrust_noise, thrust_reading
 
 MINUTE = 60.0
-# Size of the document's sample, and distance of the ticks of the axes whose ends it prints.
-PRINTED_SAMPLES = 500
-# Share of it from which our largest value bounds another sample's: failures leave a few out. It was
-# all of it until a first run was seen; no verdict changed.
+# Share of the document's sample from which our largest value bounds another sample's: failures
+# leave a few out. It was all of it until a first run was seen; no verdict changed.
 ENOUGH = 0.9
+# Distance of the ticks of the axes whose ends the document prints.
 APPROACH_TICKS = {TIME: 2.0, STEPS: 10.0, DELTA_V: 2.0}
 DOCKING_TICKS = {TIME: 0.5, STEPS: 50.0, DELTA_V: 0.05}
 
 
-def study_observations(config: Config, results: Path) -> list[Observation]:
+def study_observations(grounds: Grounds) -> list[Observation]:
     """All observations of chapters 4, 5 and 7 that rest on many manoeuvres."""
     found: list[Observation] = []
     for one in (_failures, _smallest_saving, _infeasible, _axes, _thrust_error, _deviations):
         try:
-            found += one(config, results)
+            found += one(grounds)
         except LookupError:
             # A what-if run may leave out the case.
             continue
     return found
 
 
-def predictive_count(failures: int, trials: int, confidence: float) -> tuple[float, float]:
-    """Interval of the failures in another sample of the printed size.
+def predictive_count(
+    failures: int, trials: int, confidence: float, samples: int
+) -> tuple[float, float]:
+    """Interval of the failures in another sample of ``samples`` manoeuvres.
 
     Beta-binomial, from Jeffreys' prior and ``failures`` of ``trials``.
     """
     tail = 0.5 * (1.0 - confidence)
-    law = betabinom(PRINTED_SAMPLES, failures + 0.5, trials - failures + 0.5)
+    law = betabinom(samples, failures + 0.5, trials - failures + 0.5)
     return float(law.ppf(tail)), float(law.ppf(1.0 - tail))
 
 
-def predictive_maximum(values: np.ndarray, tick: float, confidence: float) -> tuple[float, float]:
-    """Interval of the end of an automatic axis that shows another sample of the printed size.
+def predictive_maximum(
+    values: np.ndarray, tick: float, confidence: float, samples: int
+) -> tuple[float, float]:
+    """Interval of the end of an automatic axis that shows another sample of ``samples`` values.
 
     The low end is the largest of our values that the largest of another sample stays below with no
     more than half of the error. An axis ends at most one tick above what it shows; how far another
     sample goes beyond ours is not known without a law of the tail, and a sample smaller than the
-    printed one bounds nothing.
+    other one bounds nothing.
     """
     ordered = np.sort(values)[::-1]
-    n, m, tail = len(ordered), PRINTED_SAMPLES, 0.5 * (1.0 - confidence)
+    n, m, tail = len(ordered), samples, 0.5 * (1.0 - confidence)
     k = np.arange(n)
     # Probability that all m new values lie below the k-th largest of n (from 0), any law.
     below = np.exp(gammaln(n + 1) - gammaln(n - k) + gammaln(n + m - k) - gammaln(n + m + 1))
@@ -75,23 +77,28 @@ def predictive_maximum(values: np.ndarray, tick: float, confidence: float) -> tu
     return float(low), float(ordered[0] + tick) if n >= ENOUGH * m else inf
 
 
-def _failures(config: Config, results: Path) -> Iterator[Observation]:
-    sweep = Sweep(config, results, "rendezvous")
+def _samples(grounds: Grounds) -> int:
+    """Size of the document's sample of initial states."""
+    return int(grounds.ledger.value("section-4-1/number-of-points-run/v-bar-maneuver").value)
+
+
+def _failures(grounds: Grounds) -> Iterator[Observation]:
+    sweep, samples = Sweep(grounds, "rendezvous"), _samples(grounds)
     for n, t in ((30, 60), (45, 50), (45, 60)):
         rows = sweep.rows(n, t)
         failed, trials = int((~rows["completed"]).sum()), len(rows)
-        low, high = predictive_count(failed, trials, sweep.bootstrap.confidence)
+        low, high = predictive_count(failed, trials, sweep.bootstrap.confidence, samples)
         yield Observation(
             f"rendezvous/section-4-2/cases-failing-to-rendezvous-within-limit/n1-{n}-ts-1-{t}-s",
-            PRINTED_SAMPLES * failed / trials,
+            samples * failed / trials,
             f"{failed} of {trials} failed",
             low=low,
             high=high,
         )
 
 
-def _smallest_saving(config: Config, results: Path) -> Iterator[Observation]:
-    sweep = Sweep(config, results, "rendezvous")
+def _smallest_saving(grounds: Grounds) -> Iterator[Observation]:
+    sweep = Sweep(grounds, "rendezvous")
     n = sweep.horizons[1]
     intervals = list(pairwise(sweep.sample_times))
     values = sweep.values(DELTA_V, *[(n, t) for t in sweep.sample_times])
@@ -114,8 +121,8 @@ def _smallest_saving(config: Config, results: Path) -> Iterator[Observation]:
         )
 
 
-def _infeasible(config: Config, results: Path) -> Iterator[Observation]:
-    sweep = Sweep(config, results, "approach")
+def _infeasible(grounds: Grounds) -> Iterator[Observation]:
+    sweep = Sweep(grounds, "approach")
     n = sweep.horizons[0]
     times = np.array(sweep.sample_times)
     met = np.stack([infeasible_share(sweep.rows(n, t), "approach") for t in times])
@@ -136,8 +143,8 @@ def _infeasible(config: Config, results: Path) -> Iterator[Observation]:
     )
 
 
-def _axes(config: Config, results: Path) -> Iterator[Observation]:
-    approach, docking = (Sweep(config, results, phase) for phase in ("approach", "docking"))
+def _axes(grounds: Grounds) -> Iterator[Observation]:
+    approach, docking = (Sweep(grounds, phase) for phase in ("approach", "docking"))
     # The legend of Figure 4.7 has no shortest sample time.
     shown = approach.sample_times[1:]
     for figure, x, sweep, ticks, times, name, axis in (
@@ -155,13 +162,19 @@ def _axes(config: Config, results: Path) -> Iterator[Observation]:
         ):
             unit = MINUTE if quantity == TIME else 1.0
             yield from _axis(
-                sweep, quantity, times, ticks[quantity], unit,
+                sweep, _samples(grounds), quantity, times, ticks[quantity], unit,
                 f"rendezvous/figure-{figure}/{letter}-axis-tick-range-{label}/{name}",
             )  # fmt: skip
 
 
 def _axis(
-    sweep: Sweep, quantity: str, times: list[float], tick: float, unit: float, name: str
+    sweep: Sweep,
+    samples: int,
+    quantity: str,
+    times: list[float],
+    tick: float,
+    unit: float,
+    name: str,
 ) -> Iterator[Observation]:
     """Both ends of an axis; a figure shows several cases, and the outermost one decides."""
     ends = []
@@ -169,8 +182,8 @@ def _axis(
         rows = sweep.rows(sweep.horizons[0], t)
         values = rows.loc[rows["completed"], column(sweep.phase, quantity)].to_numpy() / unit
         if len(values):
-            low, high = predictive_maximum(values, tick, sweep.bootstrap.confidence)
-            least, most = predictive_maximum(-values, tick, sweep.bootstrap.confidence)
+            low, high = predictive_maximum(values, tick, sweep.bootstrap.confidence, samples)
+            least, most = predictive_maximum(-values, tick, sweep.bootstrap.confidence, samples)
             ends.append((values.max(), low, high, values.min(), -most, -least))
     if not ends:
         raise LookupError(name)
@@ -182,9 +195,9 @@ def _axis(
                       high=table[:, 2].max())  # fmt: skip
 
 
-def _thrust_error(config: Config, results: Path) -> Iterator[Observation]:
+def _thrust_error(grounds: Grounds) -> Iterator[Observation]:
     """Steady deviation of Eq. 5.3; the reading that is flown comes last."""
-    section = config["rendezvous"]
+    section = grounds.config["rendezvous"]
     readings = readings_table(thrust_noise(section)).set_index("reading")["steady_state_percent"]
     flown = thrust_reading(section)
     for reading in (*readings.index.drop(flown), flown):
@@ -195,9 +208,9 @@ def _thrust_error(config: Config, results: Path) -> Iterator[Observation]:
         )
 
 
-def _deviations(config: Config, results: Path) -> Iterator[Observation]:
-    delta_v = mean_deviation(config, results, AS_DOCUMENTED, DELTA_V)
-    time = mean_deviation(config, results, AS_DOCUMENTED, TIME)
+def _deviations(grounds: Grounds) -> Iterator[Observation]:
+    delta_v = mean_deviation(grounds, AS_DOCUMENTED, DELTA_V)
+    time = mean_deviation(grounds, AS_DOCUMENTED, TIME)
     for where, of_delta_v, of_time in (
         (
             "section-5-4",

@@ -4,19 +4,22 @@ Units that are resampled are initial states, each with the mean of its runs, so 
 state do not count as independent. Manoeuvres that the time limit ends count as they ended.
 """
 
-from pathlib import Path
-
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.evidence.claims import Judgement, judged
-from smallsat.evidence.effects import above, judgement
+from smallsat.evidence.effects import above, judgement, negative
 from smallsat.evidence.grounds import Grounds
 from smallsat.evidence.ledger import Ledger
-from smallsat.results import read_table
 from smallsat.statistics.bootstrap import Effect, effect
-from smallsat.studies.rendezvous.evidence.sensitivity_claims import bootstrap, median, negative
+from smallsat.studies.rendezvous.evidence.sweeps import (
+    DELTA_V,
+    TIME,
+    WORDS,
+    bootstrap,
+    mean,
+    median,
+)
 from smallsat.studies.rendezvous.monte_carlo.cases import (
     AS_DOCUMENTED,
     CLOHESSY_WILTSHIRE,
@@ -34,17 +37,16 @@ CONSIDERABLY = 0.25
 ROBUST = 0.95  # share of the manoeuvres that end within the limit
 CLOSE = 0.25
 
-DELTA_V, TIME = "delta_v_m_s", "time_s"
-WORDS = {DELTA_V: "delta-v", TIME: "time"}
+ROBUSTNESS = "studies/robustness.parquet"
 
 
-def by_state(results: Path, case: str) -> pd.DataFrame:
+def by_state(table: pd.DataFrame, case: str) -> pd.DataFrame:
     """Mean and standard deviation over the runs from each initial state of a case.
 
-    Columns: mean and deviation of the totals ``delta_v_m_s`` and ``time_s``, mean of both in the
-    docking phase (``docking_...``), and the share of runs that ``completed``.
+    ``table`` is ``robustness.parquet``. Columns: mean and deviation of the totals ``delta_v_m_s``
+    and ``time_s``, mean of both in the docking phase (``docking_...``), and the share of runs that
+    ``completed``.
     """
-    table = read_table(results / "studies/robustness.parquet")
     rows = table[table["case"] == case]
     if rows.empty:
         raise LookupError(case)
@@ -60,7 +62,8 @@ def by_state(results: Path, case: str) -> pd.DataFrame:
 
 
 def _two(grounds: Grounds, first: str, second: str) -> tuple[pd.DataFrame, pd.DataFrame]:
-    a, b = by_state(grounds.results, first), by_state(grounds.results, second)
+    table = grounds.table(ROBUSTNESS)
+    a, b = by_state(table, first), by_state(table, second)
     common = a.index.intersection(b.index)
     return a.loc[common], b.loc[common]
 
@@ -92,23 +95,18 @@ def chaser_bounces(grounds: Grounds) -> Judgement:
 
 def guidance_is_robust(grounds: Grounds) -> Judgement:
     """Chapters 5 and 7: share of the disturbed manoeuvres that end within the limit."""
-    done = by_state(grounds.results, AS_DOCUMENTED)["completed"].to_numpy()
-    found = [effect("share", lambda i: done[i].mean(axis=1), len(done), bootstrap(grounds.config))]
+    done = by_state(grounds.table(ROBUSTNESS), AS_DOCUMENTED)["completed"].to_numpy()
+    found = [effect("share", mean(done), len(done), bootstrap(grounds.config))]
     return judgement(above(found, ROBUST), "share that docks within the limit, to be 95 %", found)
 
 
 def filter_reduces_bounce(grounds: Grounds) -> Judgement:
     """Section 5.5: delta-v and time with a filter against raw measurements."""
     raw, filtered = _two(grounds, AS_DOCUMENTED, FILTERED)
+    changes = {q: median((filtered[q] / raw[q] - 1.0).to_numpy()) for q in (DELTA_V, TIME)}
     found = [
-        effect(
-            WORDS[q],
-            median((filtered[q] / raw[q] - 1.0).to_numpy()),
-            len(raw),
-            bootstrap(grounds.config),
-            2,
-        )
-        for q in (DELTA_V, TIME)
+        effect(WORDS[q], change, len(raw), bootstrap(grounds.config), 2)
+        for q, change in changes.items()
     ]
     return judgement(
         above(negative(found), CONSIDERABLY),
@@ -117,10 +115,10 @@ def filter_reduces_bounce(grounds: Grounds) -> Judgement:
     )
 
 
-def mean_deviation(config: Config, results: Path, case: str, quantity: str) -> Effect:
+def mean_deviation(grounds: Grounds, case: str, quantity: str) -> Effect:
     """Mean over the initial states of the standard deviation over runs, m/s or s."""
-    found = by_state(results, case)[f"deviation_{quantity}"].to_numpy()
-    return effect(WORDS[quantity], lambda i: found[i].mean(axis=1), len(found), bootstrap(config))
+    found = by_state(grounds.table(ROBUSTNESS), case)[f"deviation_{quantity}"].to_numpy()
+    return effect(WORDS[quantity], mean(found), len(found), bootstrap(grounds.config))
 
 
 def prediction_with_j2_helps(grounds: Grounds) -> Judgement:

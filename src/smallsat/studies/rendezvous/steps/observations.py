@@ -1,5 +1,7 @@
 """What is computed for every published value of the rendezvous."""
 
+from smallsat.evidence.grounds import Grounds
+from smallsat.evidence.ledger import Ledger
 from smallsat.evidence.not_converged import not_converged_table
 from smallsat.evidence.observation import observations_table
 from smallsat.step import Step, Tables
@@ -10,7 +12,9 @@ from smallsat.studies.rendezvous.evidence.observations import observations, undo
 def run(step: Step) -> Tables:
     """Observe, and list the manoeuvres that did not dock."""
     section, results = step.section, step.results
-    found = observations(section, results) + study_observations({"rendezvous": section}, results)
+    ledger = Ledger.read(step.published / "values.csv")
+    grounds = Grounds({"rendezvous": section}, results, ledger, {})
+    found = observations(section, results) + study_observations(grounds)
     return {
         "observations.csv": observations_table(found),
         "not-converged.csv": not_converged_table(undocked(results)),

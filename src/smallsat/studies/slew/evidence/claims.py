@@ -1,8 +1,4 @@
-"""Predicates of the document's prose claims.
-
-The signature is that of `smallsat.evidence.claims.Predicate`: the whole configuration and the
-folder with the study's results.
-"""
+"""Predicates of the document's prose claims."""
 
 import numpy as np
 import pandas as pd
@@ -30,10 +26,7 @@ SAME_COST = 1e-3
 
 def _least(grounds: Grounds, case: str) -> float:
     """Least time, s, of a case; a LookupError where none was found."""
-    rows = grounds.table("minimum-times.csv").set_index("case")
-    if not rows["converged"].to_dict()[case]:
-        raise LookupError(f"no least time of {case}")
-    return float(rows["duration_s"].to_dict()[case])
+    return float(grounds.rows("minimum-times.csv", case=case, converged=True)["duration_s"].iloc[0])
 
 
 def _turn_about_z(given: Parameters, case: str) -> None:
@@ -213,31 +206,21 @@ def better_than_eigenaxis(grounds: Grounds) -> Judgement:
     """90 deg: yaw error and peak momentum, in the fuller model, open loop against PD."""
     given = parameters(grounds.config["slew"])
     _turn_about_z(given, "quarter")
-    replays = grounds.table("replays.parquet")
-    flights = grounds.table("flights.parquet")
     found = []
     for table, name in (
-        (replays, f"{given.names['quarter']}, one segment"),
-        (flights, "eigenaxis quarter"),
+        ("replays.parquet", f"{given.names['quarter']}, one segment"),
+        ("flights.parquet", "eigenaxis quarter"),
     ):
-        flown = _flight(table, name)
+        flown = grounds.rows(table, flight=name)
         yaw = angles_deg(flown.tail(1))[0, 2]
         error = abs(short_of(yaw, target_yaw(given, "quarter")))
         found.append((error, 100.0 * flown["h_z"].abs().max() / given.momentum))
     (error, peak), (pd_error, pd_peak) = found
     return judged(
-        bool(error < pd_error and peak < pd_peak),
+        error < pd_error and peak < pd_peak,
         f"yaw error {error:.2f} against {pd_error:.2f} deg, peak momentum {peak:.1f} against "
         f"{pd_peak:.1f} %; part of it is that the plan knows the time it has and the law does not",
     )
-
-
-def _flight(table: pd.DataFrame, name: str) -> pd.DataFrame:
-    """Rows of a flight; a LookupError where there was none."""
-    flown = table[table["flight"] == name]
-    if not len(flown):
-        raise LookupError(f"no flight '{name}'")
-    return flown
 
 
 def eigenaxis_stays_on_axis(grounds: Grounds) -> Judgement:
@@ -256,8 +239,8 @@ def open_loop_follows(grounds: Grounds) -> Judgement:
     """90 deg: the torque history flown open loop against the plan."""
     given = parameters(grounds.config["slew"])
     _turn_about_z(given, "quarter")
-    replays = grounds.table("replays.parquet")
-    flown = _flight(replays, f"{given.names['quarter']}, one segment").tail(1)
+    name = f"{given.names['quarter']}, one segment"
+    flown = grounds.rows("replays.parquet", flight=name).tail(1)
     roll, pitch, yaw = angles_deg(flown)[0]
     aside = short_of(yaw, target_yaw(given, "quarter"))
     error = float(np.sqrt(roll**2 + pitch**2 + aside**2))
@@ -271,22 +254,14 @@ def open_loop_follows(grounds: Grounds) -> Judgement:
 def half_turn_off_eigenaxis(grounds: Grounds) -> Judgement:
     """180 deg: the tilt of the body's z axis on feasible plans."""
     _turn_about_z(parameters(grounds.config["slew"]), "half")
-    tilts = _tilts(_feasible_plans(grounds))
+    tilts = _tilts(grounds.rows("trade-off-plans.parquet"))
     falling = len(tilts) > 1 and tilts.is_monotonic_decreasing
     order = ", the more the shorter the time" if falling else ""
     return judged(
-        bool((tilts > 10.0 * VISIBLE_DEG).all()),
+        (tilts > 10.0 * VISIBLE_DEG).all(),
         f"the z axis tilts by {tilts.min():.0f} to {tilts.max():.0f} deg on our feasible plans"
         f"{order}",
     )
-
-
-def _feasible_plans(grounds: Grounds) -> pd.DataFrame:
-    """The trade-off's plans with a held control; a LookupError where none converged."""
-    plans = grounds.table("trade-off-plans.parquet")
-    if not len(plans):
-        raise LookupError("no plan of the trade-off converged")
-    return plans
 
 
 def _tilts(plans: pd.DataFrame) -> pd.Series:
@@ -300,7 +275,7 @@ def _tilts(plans: pd.DataFrame) -> pd.Series:
 def closed_loop_of_the_axis(grounds: Grounds) -> Judgement:
     """180 deg: the path of the body's z axis in the inertial x-y plane closes on itself."""
     _turn_about_z(parameters(grounds.config["slew"]), "half")
-    plans = _feasible_plans(grounds)
+    plans = grounds.rows("trade-off-plans.parquet")
     path = plans[plans["plan"] == plans["plan"].iloc[0]]
     q1, q2, q3, q4 = (path[f"q_{i}"].to_numpy() for i in range(1, 5))
     x, y = 2.0 * (q1 * q3 + q2 * q4), 2.0 * (q2 * q3 - q1 * q4)
@@ -316,7 +291,7 @@ def closed_loop_of_the_axis(grounds: Grounds) -> Judgement:
 
 def torque_all_the_time(grounds: Grounds) -> Judgement:
     """180 deg: the share of time with torque about each axis."""
-    plans = _feasible_plans(grounds)
+    plans = grounds.rows("trade-off-plans.parquet")
     given = parameters(grounds.config["slew"])
     limit = 0.01 * given.torque
     shares = [
@@ -356,9 +331,8 @@ def gradient_dominates(grounds: Grounds) -> Judgement:
     return Judgement(
         "holds" if share == 1.0 else "undecided",
         f"with the printed lever it {'dominates' if everywhere else 'does not dominate'} at every "
-        f"altitude studied; with {largest:g} mm the "
-        f"crossover is at {_km(crossing)}, at {_km(worst)} in the densest air assumed; "
-        f"{100 * share:.0f} % of the cases from 400 km on",
+        f"altitude studied; with {largest:g} mm the crossover is at {_km(crossing)}, at "
+        f"{_km(worst)} in the densest air assumed; {100 * share:.0f} % of the cases from 400 km on",
     )
 
 
@@ -387,11 +361,9 @@ def transition_matrix_keeps_length(grounds: Grounds) -> Judgement:
 
 def local_minima(grounds: Grounds) -> Judgement:
     """Several starts end in different least times."""
-    starts = grounds.table("minimum-time-starts.csv")
     name = parameters(grounds.config["slew"]).names["half"]
-    found = starts[starts["converged"] & (starts["case"] == f"{name}, wheels")]
-    if not len(found):
-        raise LookupError("no start converged")
+    case = f"{name}, wheels"
+    found = grounds.rows("minimum-time-starts.csv", converged=True, case=case)
     durations = np.sort(found["duration_s"])
     # What two starts reach apart by less than this is one minimum, whatever its last digit.
     new = np.diff(durations, prepend=-np.inf) > SAME_MINIMUM_S
@@ -406,16 +378,13 @@ def local_minima(grounds: Grounds) -> Judgement:
 def plans_are_optimal(grounds: Grounds) -> Judgement:
     """Ours: converged, flown anew, limits kept, Hamiltonian constant."""
     table, times = (
-        rows[rows["converged"]]
-        for rows in (grounds.table(f"{name}.csv") for name in ("trade-off", "minimum-times"))
+        grounds.rows(f"{name}.csv", converged=True) for name in ("trade-off", "minimum-times")
     )
-    if not len(table) or not len(times):
-        raise LookupError("nothing converged")
     miss = float(max(table["attitude_miss_rad"].max(), times["attitude_miss_rad"].max()))
     spread = float(max(table["hamiltonian_spread"].max(), times["hamiltonian_spread"].max()))
     torque = float(table["largest_torque_share"].max())
     return judged(
-        bool(
+        (
             table["held_converged"].all()
             and miss < INDEPENDENT_MISS
             and torque <= 1.0

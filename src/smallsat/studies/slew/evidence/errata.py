@@ -1,8 +1,4 @@
-"""Proofs of the errata: each recomputes a quantity as printed and as corrected, and can fail.
-
-The signature is that of `smallsat.evidence.errata.ProofFunction`: the whole configuration and the
-folder with the study's results.
-"""
+"""Proofs of the errata: each recomputes a quantity as printed and as corrected, and can fail."""
 
 from typing import Any
 
@@ -37,9 +33,7 @@ def table_3_time_optimal(grounds: Grounds) -> Proof:
     printed = grounds.ledger.value("table-3/t-min/90-deg-time-optimal").value
     implied = printed / scales[0]
     return Proof(
-        holds=bool(
-            abs(row["t_min"] - printed) > 1.0 and abs(implied * scales[1] - row["t_max"]) > 1.0
-        ),
+        holds=abs(row["t_min"] - printed) > 1.0 and abs(implied * scales[1] - row["t_max"]) > 1.0,
         as_printed=f"{printed:.2f} s, a scaled time of {implied:.3f}",
         as_corrected=f"{row['t_min']:.2f} s, a scaled time of {row['t_hat']:.4f}",
         statement=(
@@ -60,7 +54,7 @@ def table_3_eigenaxis(grounds: Grounds) -> Proof:
     turned = np.degrees(given.torque / moment * (printed.value / 2.0) ** 2)
     exact = np.degrees(given.torque / moment * (row["t_max"] / 2.0) ** 2)
     return Proof(
-        holds=bool(
+        holds=(
             abs(row["t_max"] - printed.value) > 2 * printed.half_unit and abs(exact - 90.0) < 1e-6
         ),
         as_printed=f"{printed.value:.2f} s turns the body by {turned:.2f} deg",
@@ -76,12 +70,11 @@ def table_3_eigenaxis(grounds: Grounds) -> Proof:
 def table_2_velocity_sign(grounds: Grounds) -> Proof:
     """v_f,z: the height falls in 100 s, so its rate cannot be positive all the way."""
     table = grounds.table("orbit.csv")
-    rows = table[table["gravity"] == "J2"]
-    ours = float(rows["vz_km_s"].iloc[0])
+    ours = float(grounds.rows("orbit.csv", gravity="J2")["vz_km_s"].iloc[0])
     before, after = (grounds.ledger.value(f"table-2/{r}/z").value for r in ("r-0", "r-f"))
     printed = grounds.ledger.value("table-2/v-f/z")
     return Proof(
-        holds=bool(
+        holds=(
             ours < 0.0
             and (table["vz_km_s"] < 0.0).all()
             and after < before
@@ -101,20 +94,20 @@ def table_2_velocity_sign(grounds: Grounds) -> Proof:
 def peak_momentum(grounds: Grounds) -> Proof:
     """38.9 %: no controller of the family gives it together with the other printed values."""
     given = parameters(grounds.config["slew"])
-    flights = grounds.table("flights.parquet")
-    flown = flights[flights["flight"] == "eigenaxis quarter"]
+    flown = grounds.rows("flights.parquet", flight="eigenaxis quarter")
     peak = float(100.0 * flown["h_z"].abs().max() / given.momentum)
     name = "section-vi-a/maximum-angular-momentum-usage/90-deg-eigenaxis/z"
     printed = grounds.ledger.value(name).value
-    table = grounds.table("controllers.csv")
-    without = table[table["fitted"] == "all but the peak of 90 deg"]
-    with_it = table[table["fitted"] == "90 deg, its peak included"]
-    both = table[table["fitted"] == "all, the peak of 90 deg included"]
-    fits = float(without["worst_miss_half_units"].min())
-    alone = float(with_it["worst_miss_half_units"].min())
-    together = float(both["worst_miss_half_units"].min())
+    fits, alone, together = (
+        float(grounds.rows("controllers.csv", fitted=question)["worst_miss_half_units"].min())
+        for question in (
+            "all but the peak of 90 deg",
+            "90 deg, its peak included",
+            "all, the peak of 90 deg included",
+        )
+    )
     return Proof(
-        holds=bool(fits <= 1.0 and together > 5.0),
+        holds=fits <= 1.0 and together > 5.0,
         as_printed=f"{printed} %",
         as_corrected=f"{peak:.2f} %",
         statement=(
@@ -141,7 +134,7 @@ def dimensions(grounds: Grounds) -> Proof:
     end = size["breadth"] * size["height"]
     density = craft["mass_kg"] / (printed * height)
     return Proof(
-        holds=bool(
+        holds=(
             np.isclose(correct, areas["side"])
             and np.isclose(end, areas["end"])
             and not np.isclose(printed, areas["side"])
@@ -184,7 +177,7 @@ def matrix_size(grounds: Grounds) -> Proof:
     matrix = differentiation_matrix(points)
     rows, columns = matrix.shape
     return Proof(
-        holds=bool(rows == NODES and columns == NODES + 1),
+        holds=rows == NODES and columns == NODES + 1,
         as_printed="(N + 1) x (N + 1)",
         as_corrected="N x (N + 1)",
         statement=(
@@ -202,7 +195,7 @@ def weight_argument(grounds: Grounds) -> Proof:
     value = np.polynomial.legendre.Legendre.basis(NODES)(points)
     error = float(np.max(np.abs(correct - weights)))
     return Proof(
-        holds=bool(error < ROUNDING and np.max(np.abs(value)) < ROUNDING),
+        holds=error < ROUNDING and np.max(np.abs(value)) < ROUNDING,
         as_printed="[P'_N]^2, called the polynomial itself",
         as_corrected="[P'_N(tau_k)]^2, the derivative at the point",
         statement=(
@@ -258,7 +251,7 @@ def mean_motion(grounds: Grounds) -> Proof:
     motion = np.sqrt(given.gravity.mu / a**3)
     torque = given.gravity.mu / a**3
     return Proof(
-        holds=bool(np.isclose(motion**2, torque) and not np.isclose(motion, torque, rtol=0.5)),
+        holds=np.isclose(motion**2, torque) and not np.isclose(motion, torque, rtol=0.5),
         as_printed=f"mu / r^3 = {torque:.3e} 1/s^2 approximated by {motion:.3e} 1/s",
         as_corrected=f"by its square, {motion**2:.3e} 1/s^2",
         statement=(
@@ -279,7 +272,7 @@ def guidance_share(grounds: Grounds) -> Proof:
     shares = 100.0 * guidance / total
     printed = grounds.ledger.value("section-vi-c/guidance-share-of-run-time/min")
     return Proof(
-        holds=bool(shares.min() > printed.value + printed.half_unit),
+        holds=shares.min() > printed.value + printed.half_unit,
         as_printed=f"{printed.value:g} %",
         as_corrected=f"{shares.min():.1f} %",
         statement=(

@@ -166,7 +166,7 @@ def effect_of_degree(grounds: Grounds) -> Proof:
         raise LookupError("a case that did not converge")
     listed = ", ".join(f"K = {k}: {value:.4f} %" for k, value in own.items())
     return Proof(
-        holds=bool(own.max() > 2 * printed),
+        holds=own.max() > 2 * printed,
         as_printed=f"{printed} %",
         as_corrected=f"up to {own.max():.3f} % in Table 4, {ours.max():.3f} % converged",
         statement=f"Table 4's own spread over N is {listed}",
@@ -193,7 +193,7 @@ def time_of_n4_prose(grounds: Grounds) -> Proof:
     table = printed_cases(grounds.ledger, "Table 3")["sim time"]
     four, five = ("direct", 4, 1), ("direct", 5, 1)
     return Proof(
-        holds=bool(prose[four] == prose[five] and prose[four] != table[four]),
+        holds=prose[four] == prose[five] and prose[four] != table[four],
         as_printed=f"{prose[four]} s",
         as_corrected=f"{table[four]} s (Table 3)",
         statement=(
@@ -281,7 +281,7 @@ def lagrange_gravity(grounds: Grounds) -> Proof:
     radius = grounds.config["transfer"]["problem"]["final_radius"]
     force = float(derivative(radius, 0.0))
     return Proof(
-        holds=bool(np.isclose(force, -mu / radius**2) and not np.isclose(force, -mu / radius)),
+        holds=np.isclose(force, -mu / radius**2) and not np.isclose(force, -mu / radius),
         as_printed=f"-mu / r = {-mu / radius:.6f} at r = {radius}",
         as_corrected=f"-mu / r^2 = {-mu / radius**2:.6f}",
         statement=f"Differentiating equation 16 by r gives {force:.6f}",
@@ -299,7 +299,7 @@ def generalised_force(grounds: Grounds) -> Proof:
     by_theta = float(force @ (ahead - radius * u_r) / step)
     by_radius = float(force @ u_r)
     return Proof(
-        holds=bool(
+        holds=(
             np.isclose(by_theta, radius * np.cos(beta), atol=1e-5)
             and not np.isclose(by_radius, radius * np.cos(beta), atol=1e-5)
         ),
@@ -314,10 +314,7 @@ def generalised_force(grounds: Grounds) -> Proof:
 
 def hamiltonian_exhaust(grounds: Grounds) -> Proof:
     """The Hamiltonian vanishes along the extremal with v_e in the mass term, not with v_theta."""
-    flown = grounds.table("indirect.parquet")
-    flown = flown[flown["intervals"] == 1]
-    if flown.empty:
-        raise LookupError("no solution of indirect shooting")
+    flown = grounds.rows("indirect.parquet", intervals=1)
     problem = TransferProblem.from_config(grounds.config["transfer"])
     correct = flown["hamiltonian"].abs().max()
     mass_term = flown["lambda_m"] * problem.thrust
@@ -327,7 +324,7 @@ def hamiltonian_exhaust(grounds: Grounds) -> Proof:
         .max()
     )
     return Proof(
-        holds=bool(correct < 1e-8 and wrong > 1e-3),
+        holds=correct < 1e-8 and wrong > 1e-3,
         as_printed=f"largest H = {wrong:.3f}",
         as_corrected=f"largest H = {correct:.1e}",
         statement=(
