@@ -41,7 +41,7 @@ def within(effects: Sequence[Effect], margin: float) -> Outcome:
 
 
 def together(*outcomes: Outcome) -> Outcome:
-    """Of several parts of one claim: holds if all do, fails if one does."""
+    """A claim of several parts holds if all of them do, and fails if one does."""
     if "fails" in outcomes:
         return "fails"
     return "undecided" if "undecided" in outcomes else "holds"

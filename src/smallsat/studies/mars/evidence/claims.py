@@ -39,7 +39,7 @@ VISIBLE_DEG = 1.0
 
 
 def velocity_is_radius_times_rate(grounds: Grounds) -> Judgement:
-    """Eq. 6 against a central difference of the position."""
+    """Eq. 6 is compared with a central difference of the position."""
     given = parameters(grounds.config["mars"])
     worst = 0.0
     for orbit in (given.lmo, given.gmo):
@@ -70,7 +70,7 @@ def rates_follow_from_one_gravity(grounds: Grounds) -> Judgement:
 
 
 def areosynchronous(grounds: Grounds) -> Judgement:
-    """The mothercraft's period against the Mars day of Section XIII.B."""
+    """The mothercraft's period is compared with the Mars day of Section XIII.B."""
     period = 2.0 * np.pi / grounds.config["mars"]["orbits"]["gmo"]["rate_rad_s"]
     day = grounds.ledger.value(MARS_DAY).value
     return judged(
@@ -80,7 +80,7 @@ def areosynchronous(grounds: Grounds) -> Judgement:
 
 
 def euler_angle_rates(grounds: Grounds) -> Judgement:
-    """Eq. 11 with the orbit's rate about its normal only."""
+    """Eq. 11 is taken with the orbit's rate about its normal only."""
     given = parameters(grounds.config["mars"])
     lmo = given.lmo
     s, c = np.sin(lmo.inclination), np.cos(lmo.inclination)
@@ -105,7 +105,7 @@ def euler_angle_rates(grounds: Grounds) -> Judgement:
 
 
 def hill_frame_is_orbit_frame(grounds: Grounds) -> Judgement:
-    """[HN] from position and velocity against [ON] from the Euler angles."""
+    """[HN] from position and velocity is compared with [ON] from the Euler angles."""
     given = parameters(grounds.config["mars"])
     worst = 0.0
     for orbit in (given.lmo, given.gmo):
@@ -118,7 +118,7 @@ def hill_frame_is_orbit_frame(grounds: Grounds) -> Judgement:
 
 
 def nadir_frame_is_flipped_orbit_frame(grounds: Grounds) -> Judgement:
-    """[RnN] against [ON] with the first and third rows negated."""
+    """[RnN] is compared with [ON], its first and third rows negated."""
     lmo = parameters(grounds.config["mars"]).lmo
     flip = np.array([[-1.0], [1.0], [-1.0]])
     times = np.linspace(0.0, grounds.config["mars"]["durations_s"]["mission"], 200)
@@ -130,7 +130,7 @@ def nadir_frame_is_flipped_orbit_frame(grounds: Grounds) -> Judgement:
 
 
 def nadir_rate_is_orbit_rate(grounds: Grounds) -> Judgement:
-    """Eq. 26 against a central difference of [RnN]."""
+    """Eq. 26 is compared with a central difference of [RnN]."""
     lmo = parameters(grounds.config["mars"]).lmo
     times = np.linspace(0.0, grounds.config["mars"]["durations_s"]["mission"], 50)
     worst = max(
@@ -144,7 +144,7 @@ def nadir_rate_is_orbit_rate(grounds: Grounds) -> Judgement:
 
 
 def finite_difference_converges(grounds: Grounds) -> Judgement:
-    """The forward difference of [RcN] against a far more accurate one, for shrinking dt."""
+    """The forward difference of [RcN] must come nearer to a far more accurate one as dt shrinks."""
     section = grounds.config["mars"]
     given = parameters(section)
     time = float(section["answer_times_s"]["reference_frames"])
@@ -165,7 +165,7 @@ def finite_difference_converges(grounds: Grounds) -> Judgement:
 
 
 def torque_free_invariants(grounds: Grounds) -> Judgement:
-    """Momentum, energy and an independent integration of the run without torque."""
+    """The run without torque must keep momentum and energy, and agree with another integration."""
     inertia = parameters(grounds.config["mars"]).inertia
     ours, again = _both(grounds, "no torque")
     if not ours[OMEGA].to_numpy().any():
@@ -183,7 +183,7 @@ def torque_free_invariants(grounds: Grounds) -> Judgement:
 
 
 def rates_oscillate_about_zero(grounds: Grounds) -> Judgement:
-    """Sign changes of each rate in the first and the last quarter of the fixed-torque run."""
+    """Sign changes of the rates are counted in the first and last quarter of the run."""
     _, accurate = _both(grounds, "fixed torque")
     rate = accurate[OMEGA].to_numpy()
     quarter = len(rate) // 4
@@ -202,7 +202,7 @@ def rates_oscillate_about_zero(grounds: Grounds) -> Judgement:
 
 
 def attitude_oscillation_speeds_up(grounds: Grounds) -> Judgement:
-    """Speed of the attitude's rotation and sign changes of the accurate attitude."""
+    """The attitude must turn faster and change sign more often from quarter to quarter."""
     _, accurate = _both(grounds, "fixed torque")
     speed = np.linalg.norm(accurate[OMEGA].to_numpy(), axis=1)
     quarter = len(speed) // 4
@@ -219,7 +219,7 @@ def attitude_oscillation_speeds_up(grounds: Grounds) -> Judgement:
 
 
 def step_leaves_artefacts(grounds: Grounds) -> Judgement:
-    """The fixed-torque run with the document's step and smaller ones against an adaptive method."""
+    """The fixed-torque run, with the document's step and less, is compared with another method."""
     section = grounds.config["mars"]
     given = parameters(section)
     _, accurate = _both(grounds, "fixed torque")
@@ -254,7 +254,7 @@ def step_leaves_artefacts(grounds: Grounds) -> Judgement:
 
 
 def gains_meet_requirements(grounds: Grounds) -> Judgement:
-    """Largest decay time and damping ratio, from the eigenvalues of the linearised closed loop."""
+    """The largest decay time and damping ratio follow from the linearised loop's eigenvalues."""
     section = grounds.config["mars"]
     given = parameters(section)
     required = section["requirements"]
@@ -272,7 +272,7 @@ def gains_meet_requirements(grounds: Grounds) -> Judgement:
 
 
 def performance_formulas(grounds: Grounds) -> Judgement:
-    """Eqs. 35 and 36 against the eigenvalues of the linearised closed loop."""
+    """Eqs. 35 and 36 are compared with the eigenvalues of the linearised closed loop."""
     given = parameters(grounds.config["mars"])
     slowest, damping = _decay_and_damping(_closed_loop_eigenvalues(given))
     by_35, by_36 = (
@@ -288,7 +288,7 @@ def performance_formulas(grounds: Grounds) -> Judgement:
 
 
 def extremes_fall_on_extreme_inertias(grounds: Grounds) -> Judgement:
-    """Which axes have the largest decay time and the largest damping ratio."""
+    """The extremes of decay time and damping ratio must fall on the extreme inertias."""
     given = parameters(grounds.config["mars"])
     slowest = int(np.argmax(decay_times(given.inertia, given.gains)))
     damped = int(np.argmax(damping_ratios(given.inertia, given.gains)))
@@ -300,24 +300,24 @@ def extremes_fall_on_extreme_inertias(grounds: Grounds) -> Judgement:
 
 
 def sun_pointing_converges(grounds: Grounds) -> Judgement:
-    """Sun pointing: error and the attitude reached."""
+    """In Sun pointing the error must decay as required; the attitude reached is told."""
     ours, _ = _both(grounds, "sun")
     target = np.array(dcm_to_mrp(SUN_FRAME))
     return _converges(grounds.config, ours, f"; the frame's MRPs are {_text(target, 4)}")
 
 
 def nadir_pointing_converges(grounds: Grounds) -> Judgement:
-    """Nadir pointing: error at the end, and whether it decays as required."""
+    """In nadir pointing the error must decay as required and be small at the end."""
     return _converges(grounds.config, _both(grounds, "nadir")[0])
 
 
 def gmo_pointing_converges(grounds: Grounds) -> Judgement:
-    """GMO pointing: error at the end, and whether it decays as required."""
+    """In GMO pointing the error must decay as required and be small at the end."""
     return _converges(grounds.config, _both(grounds, "gmo")[0])
 
 
 def mission_converges(grounds: Grounds) -> Judgement:
-    """Every interval of the mission: error five decay times after its start, and at its end."""
+    """In every interval of the mission the error must decay as required and end small."""
     ours, _ = _both(grounds, "mission")
     mode = ours["mode"].to_numpy()
     starts = np.r_[0, np.flatnonzero(np.diff(mode[:-1])) + 1]

@@ -27,7 +27,7 @@ def _races(grounds: Grounds, solution: str, scenario: str) -> pd.DataFrame:
 
 
 def _all_races(grounds: Grounds, solution: str, scenario: str) -> pd.DataFrame:
-    """The same where a claim speaks of all CubeSats; a `LookupError` where one is missing."""
+    """`_races` for a claim that speaks of all CubeSats; a `LookupError` where one is missing."""
     rows = _races(grounds, solution, scenario)
     return rows.loc[list(CUBESATS)]
 
@@ -59,7 +59,7 @@ def _axial(given: Parameters) -> CubeSat:
 
 
 def faster_with_thrust(grounds: Grounds) -> Judgement:
-    """Optimal times over thrust."""
+    """The optimal time must fall as the thrust grows."""
     sweep = _complete(grounds.table("thrust-sweep.csv"), f"{WHOLE} (s)")
     sweep = sweep.sort_values("thrust_m_s2")
     times = sweep[f"{WHOLE} (s)"].to_numpy()
@@ -73,7 +73,7 @@ def faster_with_thrust(grounds: Grounds) -> Judgement:
 
 
 def no_thrust_is_best_for_accuracy(grounds: Grounds) -> Judgement:
-    """Misses of the optimum over thrust."""
+    """The misses of the optimum are compared over thrusts."""
     sweep = _complete(grounds.table("thrust-sweep.csv"), f"{WHOLE} (s)")
     worst = float(sweep[f"{WHOLE}, residual"].max())
     multiplier = float(sweep["largest_ring_multiplier_s_m"].max())
@@ -86,7 +86,7 @@ def no_thrust_is_best_for_accuracy(grounds: Grounds) -> Judgement:
 
 
 def mo_can_pass(grounds: Grounds) -> Judgement:
-    """Mo's optimum within the limits of its axes."""
+    """Mo's optimum, each axis within its own limit, is looked at for missed rings."""
     row = _races(grounds, WHOLE, "scenario-1").loc["Mo"]
     passed = row["missed"] == 0 and row["off_axis"] == 0 and row["residual"] < CENTRED
     return judged(
@@ -97,7 +97,7 @@ def mo_can_pass(grounds: Grounds) -> Judgement:
 
 
 def mo_slower_than_meeny(grounds: Grounds) -> Judgement:
-    """Optimal times of Mo and Meeny."""
+    """The optimal times of Mo and Meeny are compared."""
     races = _all_races(grounds, WHOLE, "scenario-1")["time_s"]
     given = parameters(grounds.config["racing"])
     mo = next(c for c in given.races["scenario-1"].cubesats if c.name == "Mo")
@@ -110,7 +110,7 @@ def mo_slower_than_meeny(grounds: Grounds) -> Judgement:
 
 
 def direction_is_the_trouble(grounds: Grounds) -> Judgement:
-    """Our solve of the listings: rings missed, and crossed off their normals."""
+    """Rings that our solve of the listings misses are counted, and those crossed off their normals."""
     rows = grounds.rows("races.csv", solution=AS_PUBLISHED)
     rings = rows["rings"].sum()
     return judged(
@@ -122,7 +122,7 @@ def direction_is_the_trouble(grounds: Grounds) -> Judgement:
 
 
 def full_thrust_against_primer(grounds: Grounds) -> Judgement:
-    """Thrust and primer of the optimum, from independent parts of the solution."""
+    """Thrust and primer of the optimum come from independent parts of the solution."""
     meshes = _meshes(grounds)
     # A run in which all thrusters are alike has only one of the two.
     free = _complete(meshes[meshes["primer_angle_median_deg"].notna()], "time_s")
@@ -139,7 +139,7 @@ def full_thrust_against_primer(grounds: Grounds) -> Judgement:
 
 
 def hamiltonian_is_minus_one(grounds: Grounds) -> Judgement:
-    """The Hamiltonian of the optimum over meshes."""
+    """The Hamiltonian of the optimum must come nearer to -1 as the mesh gets finer."""
     table = _complete(grounds.table("meshes.csv"), "time_s")
     found = table.groupby("intervals")["hamiltonian_error"].max()
     median = float(_meshes(grounds)["hamiltonian_median_error"].max())
@@ -153,7 +153,7 @@ def hamiltonian_is_minus_one(grounds: Grounds) -> Judgement:
 
 
 def adjoints_jump(grounds: Grounds) -> Judgement:
-    """Jumps of the costates at rings, on the whole-course optimum."""
+    """The costates of the whole-course optimum are searched for jumps at rings."""
     largest = float(_meshes(grounds)["largest_ring_multiplier_s_m"].max())
     rows = grounds.rows("optima-scenario-1-segments.csv", solution=WHOLE, cubesat="Meeny")
     rows = _complete(rows, "px")
@@ -166,7 +166,7 @@ def adjoints_jump(grounds: Grounds) -> Judgement:
 
 
 def not_smooth(grounds: Grounds) -> Judgement:
-    """Where the problem has a kink or a jump: the miss at its optimum, and Mo's thrust."""
+    """The problem is looked at where it has a kink or a jump: a miss of zero, and Mo's thrust."""
     mo = _axial(parameters(grounds.config["racing"]))
     jump = mo.thrust - float(np.linalg.norm(mo.axis_thrust[:2]))
     worst = float(_all_races(grounds, WHOLE, "scenario-1")["accuracy_m"].max())
@@ -206,7 +206,7 @@ def _primer_at_rings(grounds: Grounds, stem: str, solution: str) -> float:
 
 
 def guess_is_ten_times_that(grounds: Grounds) -> Judgement:
-    """Listing C.C, line 66."""
+    """Line 66 of Listing C.C guesses a multiple of the time that the text names."""
     multiple = grounds.config["racing"]["as_published"]["duration_multiple"]
     return judged(
         multiple == 1.0,
@@ -216,7 +216,7 @@ def guess_is_ten_times_that(grounds: Grounds) -> Judgement:
 
 
 def minimum_cost_is_no_bound_of_the_race(grounds: Grounds) -> Judgement:
-    """The formula along three paths of the same CubeSat on the same course."""
+    """The formula is taken along three paths of the same CubeSat on the same course."""
     texts, spread = [], []
     printed = _printed(grounds, "scenario-1")["minimum_cost_s"].to_dict()
     for name in ("Eeny", "Meeny", "Miny"):
@@ -236,7 +236,7 @@ def minimum_cost_is_no_bound_of_the_race(grounds: Grounds) -> Judgement:
 
 
 def start_positions_hardly_matter(grounds: Grounds) -> Judgement:
-    """Optimal times from random places at the start of Scenario 2."""
+    """Optimal times are compared that start at random places of Scenario 2."""
     table = _complete(grounds.table("random-positions.csv"), "time_s")
     times = table["time_s"]
     spread = float(times.max() - times.min())
@@ -249,7 +249,7 @@ def start_positions_hardly_matter(grounds: Grounds) -> Judgement:
 
 
 def potential_is_equal(grounds: Grounds) -> Judgement:
-    """Optimal times of the four CubeSats of Scenario 2."""
+    """The optimal times of the four CubeSats of Scenario 2 say who has the potential."""
     times = _all_races(grounds, WHOLE, "scenario-2")["time_s"].sort_values()
     return Judgement(
         "holds" if times.index[0] == "Mo" else "fails",
@@ -260,7 +260,7 @@ def potential_is_equal(grounds: Grounds) -> Judgement:
 
 
 def whole_course_remedies(grounds: Grounds) -> Judgement:
-    """Whole course against segment by segment."""
+    """A course solved as a whole is compared with one solved segment by segment."""
     texts, better = [], []
     for scenario in ("scenario-1", "scenario-2"):
         whole = _all_races(grounds, WHOLE, scenario)
@@ -277,7 +277,7 @@ def whole_course_remedies(grounds: Grounds) -> Judgement:
 
 
 def thousand_times(grounds: Grounds) -> Judgement:
-    """Ratios of the accelerations used and those of commercial thrusters."""
+    """The printed accelerations are divided by those of commercial thrusters."""
     used, commercial = (
         np.array(grounds.ledger.values(f"section-v/{place}"), dtype=float)
         for place in (
@@ -295,7 +295,7 @@ def thousand_times(grounds: Grounds) -> Judgement:
 
 
 def cost_is_time_plus_accuracy(grounds: Grounds) -> Judgement:
-    """The printed rows."""
+    """Time and accuracy of every printed row must add up to its cost."""
     table = printed_scores(grounds.ledger)
     errors = (table["cost"] - table["time_s"] - table["accuracy_m"]).abs()
     return judged(
@@ -322,7 +322,7 @@ def printed_runs_missed(grounds: Grounds) -> Judgement:
 
 
 def scenario_2_recovered(grounds: Grounds) -> Judgement:
-    """The seed's start positions against Table 3, and every other day of some years."""
+    """The start positions of the seed, and of every other day, are compared with Table 3."""
     given = parameters(grounds.config["racing"])
     seed = grounds.config["racing"]["scenarios"]["scenario-2"]["seed"]
     race = given.races["scenario-2"]
@@ -348,7 +348,7 @@ def scenario_2_recovered(grounds: Grounds) -> Judgement:
 
 
 def published_solve_is_erratic(grounds: Grounds) -> Judgement:
-    """The same solve with one thing changed."""
+    """The document's solve is repeated with one thing changed, which ought not to matter."""
     table = grounds.table("variants.csv")
     costs = table["cost"]
     text = "; ".join(
@@ -364,7 +364,7 @@ def published_solve_is_erratic(grounds: Grounds) -> Judgement:
 
 
 def penalty_is_exact(grounds: Grounds) -> Judgement:
-    """The largest multiplier of a ring's centre against the weight of a miss."""
+    """The largest multiplier of a ring's centre is compared with the weight of a miss."""
     table = _meshes(grounds)
     meshes = table["largest_ring_multiplier_s_m"]
     first = zip(table["cubesat"][:4], meshes[:4], strict=True)
@@ -378,7 +378,7 @@ def penalty_is_exact(grounds: Grounds) -> Judgement:
 
 
 def optimum_is_confirmed(grounds: Grounds) -> Judgement:
-    """Convergence, independent flights, other starts, meshes, dynamic programming."""
+    """The optimum must stand up to independent flights, other starts, meshes and a method."""
     races = grounds.table("races.csv")
     ours = races[races["solution"].isin((WHOLE, ANYWHERE, GREEDY))]
     _complete(ours, "time_s")

@@ -90,7 +90,7 @@ def start_covariance(grounds: Grounds) -> Proof:
 
 
 def start_ring_comment(grounds: Grounds) -> Proof:
-    """The multiple of 5: the same draws, with the comment's number."""
+    """The same draws as for the covariance are scaled by the comment's multiple of 5."""
     given = parameters(grounds.config["racing"])
     used = grounds.config["racing"]["start"]["axis_multiple"]
     right = given.scatter**2
@@ -172,7 +172,7 @@ def costate_transpose(grounds: Grounds) -> Proof:
 
 
 def printed_adjoint_transition(n: float, t: float) -> np.ndarray:
-    """Eq. 18 as printed."""
+    """The matrix of Eq. 18 as printed, shape (6, 6), for a mean motion, rad/s, and a time, s."""
     s, c = np.sin(n * t), np.cos(n * t)
     return np.array(
         [
@@ -187,7 +187,7 @@ def printed_adjoint_transition(n: float, t: float) -> np.ndarray:
 
 
 def adjoint_transition(grounds: Grounds) -> Proof:
-    """Eq. 18 against the matrix exponential of Eq. 17, entry by entry."""
+    """Eq. 18 is compared with the matrix exponential of Eq. 17, entry by entry."""
     n, t = parameters(grounds.config["racing"]).mean_motion, 10.0 * SECONDS
     exact = expm(costate_matrix(n) * t)
     printed = printed_adjoint_transition(n, t)
@@ -210,7 +210,7 @@ def adjoint_transition(grounds: Grounds) -> Proof:
 
 
 def ring_size(grounds: Grounds) -> Proof:
-    """The least entry of S, for every ring of Scenario 1."""
+    """The least entry of S is taken for every ring of Scenario 1."""
     course = parameters(grounds.config["racing"]).races["scenario-1"].course
     least = [float(np.min(np.diag(axes))) for axes in course.semi_axes]
     return Proof(
@@ -227,7 +227,7 @@ def ring_size(grounds: Grounds) -> Proof:
 
 
 def axial_thrust(grounds: Grounds) -> Proof:
-    """Eq. 24, the listings' law and the minimiser at one primer vector."""
+    """Eq. 24, the listings' law and the minimiser are taken at one primer vector."""
     given = parameters(grounds.config["racing"])
     axial = [c for c in given.races["scenario-1"].cubesats if c.axis_thrust]
     if not axial:
@@ -261,7 +261,7 @@ def _vector(values: np.ndarray) -> str:
 
 
 def equality_ranks(grounds: Grounds, transposed: bool) -> tuple[int, int, int]:
-    """Of the twelve equalities at a converged segment: rows that move, their rank, and of pointing.
+    """Equalities that move at a converged segment, their rank, and that of pointing.
 
     The segment is Meeny's first by the indirect method, where all conditions hold.
     """

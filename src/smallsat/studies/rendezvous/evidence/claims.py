@@ -86,7 +86,7 @@ def six_thrusters_move_in_six_degrees(grounds: Grounds) -> Judgement:
 
 
 def one_norm_is_sparser(grounds: Grounds) -> Judgement:
-    """Shares of the far range's control components that are off."""
+    """More of the far range's control components must be off with the LP than with the QP."""
     bound = grounds.config["rendezvous"]["phases"]["far"]["control_bound_m_s"]
     far = grounds.rows("flights.parquet", phase="far")
 
@@ -117,7 +117,7 @@ def _largest(
 
 
 def keep_out_zone_is_kept(grounds: Grounds) -> Judgement:
-    """The deepest passage of the cases' far ranges, linear and nonlinear, between samples too."""
+    """The cases' far ranges are searched for their deepest passage, between samples too."""
     keep_out = law(grounds.config["rendezvous"], "v-bar").keep_out
     linear = _largest(grounds, "keep out", "linear", "sample", "between")
     impulses = _largest(grounds, "keep out", "impulses", "sample", "between")
@@ -133,7 +133,7 @@ def keep_out_zone_is_kept(grounds: Grounds) -> Judgement:
 
 
 def cone_violated_slightly(grounds: Grounds) -> Judgement:
-    """Largest distance outside the cone, m, at the samples of the three cases' mid ranges."""
+    """The chaser must never be far outside the cone at samples of the three cases' mid ranges."""
     by_case = {
         case: _largest(grounds, "cone penalty", "linear", "sample", case=case)
         for case in CASE_TABLES
@@ -148,7 +148,7 @@ def cone_violated_slightly(grounds: Grounds) -> Judgement:
 
 
 def r_bar_takes_less(grounds: Grounds) -> Judgement:
-    """Time and delta-v of Case 2 below those of Case 1."""
+    """Time and delta-v of Case 2 must be below those of Case 1."""
     totals = _totals(grounds)
     pairs = totals[[("time_s", "v-bar"), ("time_s", "r-bar")]]
     time = totals[("time_s", "v-bar")] - totals[("time_s", "r-bar")]
@@ -170,7 +170,7 @@ def _printed_less(grounds: Grounds, quantity: str, case: str, other: str) -> flo
 
 
 def rotating_is_comparable(grounds: Grounds) -> Judgement:
-    """Case 3's delta-v within a tenth of the interval between Cases 1 and 2."""
+    """Case 3's delta-v must lie within a tenth of the interval between Cases 1 and 2."""
     fuel = _totals(grounds)["delta_v_m_s"][["v-bar", "r-bar", "rotating"]]
     low, high = fuel[["v-bar", "r-bar"]].min(axis=1), fuel[["v-bar", "r-bar"]].max(axis=1)
     inside = (fuel["rotating"] >= (1 - LITTLE) * low) & (fuel["rotating"] <= (1 + LITTLE) * high)
@@ -182,7 +182,7 @@ def rotating_is_comparable(grounds: Grounds) -> Judgement:
 
 
 def difference_lies_close(grounds: Grounds) -> Judgement:
-    """Where Case 3's delta-v differs most: printed, and with the acceptable sets."""
+    """Case 3's delta-v must differ most close to the target, as printed and over the sets."""
     cells = phase_cells(grounds.ledger).set_index(["case", "phase"])["delta_v_m_s"].to_dict()
     printed = {
         other: {phase: cells["rotating", phase] - cells[other, phase] for phase in PHASES}
@@ -216,7 +216,7 @@ def difference_lies_close(grounds: Grounds) -> Judgement:
 
 
 def rotation_adds_little(grounds: Grounds) -> Judgement:
-    """Case 3 against Case 1, the same approach to a target at rest."""
+    """Case 3 is compared with Case 1, the same approach to a target at rest."""
     fuel = _totals(grounds)["delta_v_m_s"][["v-bar", "rotating"]]
     added = fuel["rotating"] - fuel["v-bar"]
     return _over_sets(
@@ -228,7 +228,7 @@ def rotation_adds_little(grounds: Grounds) -> Judgement:
 
 
 def without_set_point_takes_longer(grounds: Grounds) -> Judgement:
-    """By a factor of `MUCH` at least."""
+    """The QP without set point must take longer by a factor of `MUCH` at least."""
     time = _totals(grounds)["time_s"][["v-bar", "no-set-point"]]
     factor = time["no-set-point"] / time["v-bar"]
     cells = total_cells(grounds.ledger).set_index("case")["time_min"]
@@ -240,7 +240,7 @@ def without_set_point_takes_longer(grounds: Grounds) -> Judgement:
 
 
 def guided_around_the_zone(grounds: Grounds) -> Judgement:
-    """The angle that is flown near the zone, with and without set point."""
+    """The angle that is flown near the zone is compared with and without set point."""
     paths = grounds.table("paths.parquet")
     keep_out = law(grounds.config["rendezvous"], "v-bar").keep_out
 
@@ -266,7 +266,7 @@ def _way_around(flights: pd.DataFrame, case: str) -> tuple[float, bool]:
 
 
 def lp_takes_another_way(grounds: Grounds) -> Judgement:
-    """Directions about the target, of the far ranges."""
+    """The far ranges of QP and LP must go about the target in opposite directions."""
     flights = grounds.table("flights.parquet")
     quadratic, _ = _way_around(flights, "v-bar")
     linear, reached = _way_around(flights, "lp")
@@ -277,7 +277,7 @@ def lp_takes_another_way(grounds: Grounds) -> Judgement:
 
 
 def lp_saves_fuel(grounds: Grounds) -> Judgement:
-    """Over the acceptable sets, with the LP weights of the configuration."""
+    """Over the acceptable sets the LP of the configuration must save delta-v and take longer."""
     totals = _totals(grounds)
     fuel = totals["delta_v_m_s"].reindex(columns=["v-bar", "lp", "no-set-point"])
     time = totals["time_s"].reindex(columns=["v-bar", "lp"])
@@ -295,7 +295,7 @@ def lp_saves_fuel(grounds: Grounds) -> Judgement:
 
 
 def totals_add_up(grounds: Grounds) -> Judgement:
-    """Sums over the printed tables, to half a unit of each rounded term."""
+    """The printed tables must add up, to half a unit of each rounded term."""
     cells = phase_cells(grounds.ledger)
     worst = {}
     for quantity in ("delta_v_m_s", "time_s"):
@@ -313,7 +313,7 @@ def totals_add_up(grounds: Grounds) -> Judgement:
 
 
 def times_are_whole_samples(grounds: Grounds) -> Judgement:
-    """The remainders of the printed times."""
+    """The printed times must be whole numbers of samples, the far range's less a second."""
     section = grounds.config["rendezvous"]
     cells = phase_cells(grounds.ledger)
     cells = cells[cells["phase"].isin(PHASES)]
@@ -354,7 +354,7 @@ def velocity_is_of_a_stable_ellipse(grounds: Grounds) -> Judgement:
 
 
 def delta_v_is_no_sum_of_plane_lengths(grounds: Grounds) -> Judgement:
-    """Printed far ranges against what so many steps can give by the length of (x, y)."""
+    """Printed far ranges are compared with what so many steps can give by the length of (x, y)."""
     section = grounds.config["rendezvous"]
     bound = section["phases"]["far"]["control_bound_m_s"]
     steps = printed_steps(section, grounds.ledger)
@@ -375,7 +375,7 @@ def delta_v_is_no_sum_of_plane_lengths(grounds: Grounds) -> Judgement:
 
 
 def truth_changes_no_step_count(grounds: Grounds) -> Judgement:
-    """The cases flown anew in the nonlinear model, by impulses as the guidance assumes them."""
+    """The cases are flown anew in the nonlinear model, by impulses as the guidance assumes them."""
     table = grounds.table("truth.csv")
     counts = {}
     for model, own in table.groupby("model"):
@@ -392,7 +392,7 @@ def truth_changes_no_step_count(grounds: Grounds) -> Judgement:
 
 
 def constraints_hold_between_samples(grounds: Grounds) -> Judgement:
-    """Bounds at every sample; docking speed and cone between samples once nothing is softened."""
+    """Bounds must hold at every sample, docking speed and cone between them unless softened."""
     section = grounds.config["rendezvous"]
     flights, paths = grounds.table("flights.parquet"), grounds.table("paths.parquet")
     faces, axis = np.empty((4, 3)), np.empty(3)
@@ -426,7 +426,7 @@ def constraints_hold_between_samples(grounds: Grounds) -> Judgement:
 
 
 def inference_is_underdetermined(grounds: Grounds) -> Judgement:
-    """Parameters that the acceptable sets leave open."""
+    """The acceptable sets must leave parameters open."""
     section = grounds.config["rendezvous"]
     evaluated = grounds.table("inference.parquet")
     table = identified(section, evaluated)

@@ -53,7 +53,7 @@ def control_bound_unit(grounds: Grounds) -> Proof:
 
 
 def initial_distance(grounds: Grounds) -> Proof:
-    """Section 3.6 against Table 3.2."""
+    """The distance of Section 3.6 is compared with the position in Table 3.2."""
     distance = float(np.linalg.norm(start_state(grounds.config["rendezvous"])[:3])) / 1000.0
     printed = grounds.ledger.value("section-3-6/initial-chaser-distance/all-cases")
     return Proof(

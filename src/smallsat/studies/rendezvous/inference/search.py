@@ -232,7 +232,7 @@ def search(section: Config, side: str, ledger: Ledger) -> pd.DataFrame:
         return dict(zip(names, values.tolist(), strict=True)), {"r_bar": side, **readings}
 
     def misfit(places: np.ndarray) -> np.ndarray:
-        """Of a population, shape (parameters, sets) as the optimiser has it."""
+        """Misfits (sets,) of a population, shape (parameters, sets) as the optimiser has it."""
         columns = np.atleast_2d(places.T)
         sets = [decoded(place) for place in columns]
         flown = fly_sets([with_values(section, *one) for one in sets])

@@ -37,7 +37,7 @@ def _turn_about_z(given: Parameters, case: str) -> None:
 
 
 def not_in_the_given_time(grounds: Grounds) -> Judgement:
-    """180 deg in 100 s: a bound without an optimiser, and the least time of two methods."""
+    """180 deg in 100 s are confronted with a bound without an optimiser and the least time."""
     given = parameters(grounds.config["slew"])
     duration, angle = given.duration, np.degrees(needed(given, "half"))
     name = given.names["half"]
@@ -68,7 +68,7 @@ def not_in_the_given_time(grounds: Grounds) -> Judgement:
 
 
 def valid_trajectory_at_limits(grounds: Grounds) -> Judgement:
-    """A valid trajectory for the 180 deg turn in 100 s."""
+    """There must be a valid trajectory for the 180 deg turn in 100 s."""
     judgement = not_in_the_given_time(grounds)
     row = grounds.table("infeasible.csv").iloc[-1]
     if judgement.outcome == "undecided":
@@ -109,7 +109,7 @@ def printed_run_misses(grounds: Grounds) -> Judgement:
 
 
 def yaw_error_significantly_lower(grounds: Grounds) -> Judgement:
-    """180 deg: the yaw error alone, and the whole attitude error, from the printed angles."""
+    """180 deg: the yaw error alone and the whole attitude error follow from the printed angles."""
     roll, pitch, yaw = (
         grounds.ledger.value(f"{OPTIMAL}/final-{name}-angle/180-deg-torque-optimal").value
         for name in ("roll", "pitch", "yaw")
@@ -126,7 +126,7 @@ def yaw_error_significantly_lower(grounds: Grounds) -> Judgement:
 
 
 def omega_z_nearly_half(grounds: Grounds) -> Judgement:
-    """180 deg: the residual rates as printed."""
+    """180 deg: the residual rates are compared as printed."""
     optimal, eigenaxis = (
         grounds.ledger.value(name).value
         for name in (
@@ -139,7 +139,7 @@ def omega_z_nearly_half(grounds: Grounds) -> Judgement:
 
 
 def eigenaxis_is_not_fastest(grounds: Grounds) -> Judgement:
-    """Least times against full torque about the eigenaxis alone."""
+    """The least times are compared with full torque about the eigenaxis alone."""
     given = parameters(grounds.config["slew"])
     texts, faster = [], []
     for case, name in given.names.items():
@@ -166,7 +166,7 @@ def _body_axis(given: Parameters, case: str) -> tuple[str, float]:
 
 
 def nutation_saves_torque(grounds: Grounds) -> Judgement:
-    """90 deg: whether motion about x and y lowers the torque used."""
+    """90 deg: it is asked whether motion about x and y lowers the torque used."""
     given = parameters(grounds.config["slew"])
     plans = grounds.table("plans.csv").set_index("plan")
     row = plans.loc[f"{given.names['quarter']}, no gravity gradient, segments"]
@@ -203,7 +203,7 @@ def bang_coast_bang(
 
 
 def better_than_eigenaxis(grounds: Grounds) -> Judgement:
-    """90 deg: yaw error and peak momentum, in the fuller model, open loop against PD."""
+    """90 deg: yaw error and peak momentum in the fuller model are compared, open loop with PD."""
     given = parameters(grounds.config["slew"])
     _turn_about_z(given, "quarter")
     found = []
@@ -224,7 +224,7 @@ def better_than_eigenaxis(grounds: Grounds) -> Judgement:
 
 
 def eigenaxis_stays_on_axis(grounds: Grounds) -> Judgement:
-    """Roll and pitch of all eigenaxis flights."""
+    """Roll and pitch of all eigenaxis flights must stay small."""
     given = parameters(grounds.config["slew"])
     for case in given.names:
         _turn_about_z(given, case)
@@ -236,7 +236,7 @@ def eigenaxis_stays_on_axis(grounds: Grounds) -> Judgement:
 
 
 def open_loop_follows(grounds: Grounds) -> Judgement:
-    """90 deg: the torque history flown open loop against the plan."""
+    """90 deg: the torque history flown open loop is compared with the plan."""
     given = parameters(grounds.config["slew"])
     _turn_about_z(given, "quarter")
     name = f"{given.names['quarter']}, one segment"
@@ -252,7 +252,7 @@ def open_loop_follows(grounds: Grounds) -> Judgement:
 
 
 def half_turn_off_eigenaxis(grounds: Grounds) -> Judgement:
-    """180 deg: the tilt of the body's z axis on feasible plans."""
+    """180 deg: the body's z axis must tilt on feasible plans."""
     _turn_about_z(parameters(grounds.config["slew"]), "half")
     tilts = _tilts(grounds.rows("trade-off-plans.parquet"))
     falling = len(tilts) > 1 and tilts.is_monotonic_decreasing
@@ -290,7 +290,7 @@ def closed_loop_of_the_axis(grounds: Grounds) -> Judgement:
 
 
 def torque_all_the_time(grounds: Grounds) -> Judgement:
-    """180 deg: the share of time with torque about each axis."""
+    """180 deg: there must be torque about each axis nearly all the time."""
     plans = grounds.rows("trade-off-plans.parquet")
     given = parameters(grounds.config["slew"])
     limit = 0.01 * given.torque
@@ -360,7 +360,7 @@ def transition_matrix_keeps_length(grounds: Grounds) -> Judgement:
 
 
 def local_minima(grounds: Grounds) -> Judgement:
-    """Several starts end in different least times."""
+    """Several starts must end in different least times."""
     name = parameters(grounds.config["slew"]).names["half"]
     case = f"{name}, wheels"
     found = grounds.rows("minimum-time-starts.csv", converged=True, case=case)
@@ -376,7 +376,7 @@ def local_minima(grounds: Grounds) -> Judgement:
 
 
 def plans_are_optimal(grounds: Grounds) -> Judgement:
-    """Ours: converged, flown anew, limits kept, Hamiltonian constant."""
+    """Our own claim: every reported plan has converged, keeps its limits and meets its end anew."""
     table, times = (
         grounds.rows(f"{name}.csv", converged=True) for name in ("trade-off", "minimum-times")
     )

@@ -102,7 +102,7 @@ def _best_mass(grounds: Grounds) -> float:
 
 
 def _mass_of_single(grounds: Grounds, degree: int) -> Proof:
-    """Of one polynomial: the prose's mass against the mass that Table 3's time implies."""
+    """The prose's mass of one polynomial is compared with the mass that Table 3's time implies."""
     row = f"direct-shooting-n-{degree}"
     time = grounds.ledger.value(f"table-3/terminal-time/{row}")
     table = grounds.ledger.value(f"table-3/terminal-mass/{row}").value

@@ -159,7 +159,7 @@ def early_stopping_figure(table: pd.DataFrame, optimum: float) -> Figure:
     Parameters
     ----------
     table
-        Of `smallsat.studies.transfer.evidence.early_stopping.early_stopping_table`.
+        The table of `smallsat.studies.transfer.evidence.early_stopping.early_stopping_table`.
     optimum
         Final time of the indirect solution, which sets the scale; not a number if there is none.
     """
