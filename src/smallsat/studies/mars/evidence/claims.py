@@ -261,10 +261,8 @@ def gains_meet_requirements(grounds: Grounds) -> Judgement:
     pairs = _closed_loop_eigenvalues(given)
     slowest, most_damped = _decay_and_damping(pairs)
     return judged(
-        (
-            np.isclose(slowest.max(), required["largest_decay_time_s"], rtol=1e-4)
-            and np.isclose(most_damped.max(), required["largest_damping_ratio"], rtol=1e-4)
-        ),
+        np.isclose(slowest.max(), required["largest_decay_time_s"], rtol=1e-4)
+        and np.isclose(most_damped.max(), required["largest_damping_ratio"], rtol=1e-4),
         f"eigenvalues of the linearised loop: decay times {_text(slowest, 1)} s, damping ratios "
         f"{_text(most_damped, 3)} about axes 1, 2, 3; required at most "
         f"{required['largest_decay_time_s']:g} s and {required['largest_damping_ratio']:g}",

@@ -60,15 +60,13 @@ def table_8_misprint(grounds: Grounds) -> Proof:
     closest = float(np.min(np.abs(sigma_1 - printed.value)))
     ours = _row(document_runs(section, given)["mission"], time, "mission")[1]
     return Proof(
-        holds=closest > 2 * printed.half_unit,
-        as_printed=f"sigma_1 = {printed.value}",
-        as_corrected=f"sigma_1 = {ours:.3f}",
-        statement=(
-            f"{len(sigma)} runs ({len(thresholds)} MRP switch thresholds, {len(steps)} step sizes "
-            f"and an adaptive integrator with quaternions) give sigma_1 between "
-            f"{sigma[:, 0].min():.4f} and {sigma[:, 0].max():.4f}; neither they nor their shadow "
-            f"sets come closer to {printed.value} than {closest:.4f}"
-        ),
+        closest > 2 * printed.half_unit,
+        f"sigma_1 = {printed.value}",
+        f"sigma_1 = {ours:.3f}",
+        f"{len(sigma)} runs ({len(thresholds)} MRP switch thresholds, {len(steps)} step sizes "
+        f"and an adaptive integrator with quaternions) give sigma_1 between "
+        f"{sigma[:, 0].min():.4f} and {sigma[:, 0].max():.4f}; neither they nor their shadow "
+        f"sets come closer to {printed.value} than {closest:.4f}",
         correct=float(ours),
     )
 
@@ -84,13 +82,11 @@ def nadir_frame_sign(grounds: Grounds) -> Proof:
     by_equation_25 = np.sin(lmo.inclination) * np.cos(lmo.raan)
     before, after = _orthogonality_defect(printed), _orthogonality_defect(correct)
     return Proof(
-        holds=before > 0.1 and after < ORTHOGONAL and np.isclose(correct[2, 1], by_equation_25),
-        as_printed=f"entry (3,2) = {printed[2, 1]:.4f}: R R' differs from 1 by {before:.2f}",
-        as_corrected=f"entry (3,2) = {correct[2, 1]:.4f}: R R' differs from 1 by {after:.0e}",
-        statement=(
-            f"Eq. 25 makes the entry sin i cos Omega = {by_equation_25:+.4f}; with the other sign "
-            f"the third row is not normal to the others (largest entry of R R' - 1: {before:.2f})"
-        ),
+        before > 0.1 and after < ORTHOGONAL and np.isclose(correct[2, 1], by_equation_25),
+        f"entry (3,2) = {printed[2, 1]:.4f}: R R' differs from 1 by {before:.2f}",
+        f"entry (3,2) = {correct[2, 1]:.4f}: R R' differs from 1 by {after:.0e}",
+        f"Eq. 25 makes the entry sin i cos Omega = {by_equation_25:+.4f}; with the other sign "
+        f"the third row is not normal to the others (largest entry of R R' - 1: {before:.2f})",
         correct=float(correct[2, 1]),
     )
 
@@ -105,13 +101,11 @@ def kinetic_energy_half(grounds: Grounds) -> Proof:
     without = float(rate @ (given.inertia * rate))
     printed = grounds.ledger.value("section-ix-b/kinetic-energy-t-500-s/no-torque")
     return Proof(
-        holds=printed.matches(correct) and not printed.matches(without),
-        as_printed=f"w' I w = {without:.5f} J",
-        as_corrected=f"w' I w / 2 = {correct:.5f} J",
-        statement=(
-            f"The formula as printed gives {without:.5f} J, with the factor 1/2 {correct:.5f} J; "
-            f"the value printed beside it is {printed.value} J"
-        ),
+        printed.matches(correct) and not printed.matches(without),
+        f"w' I w = {without:.5f} J",
+        f"w' I w / 2 = {correct:.5f} J",
+        f"The formula as printed gives {without:.5f} J, with the factor 1/2 {correct:.5f} J; "
+        f"the value printed beside it is {printed.value} J",
     )
 
 
@@ -130,14 +124,12 @@ def attitude_matrix_factor(grounds: Grounds) -> Proof:
     conserved = np.linalg.norm(np.array(mrp_to_dcm(given.initial_state[:3])).T @ start)
     before, after = _orthogonality_defect(printed), _orthogonality_defect(correct)
     return Proof(
-        holds=before > 1e-3 and after < ORTHOGONAL,
-        as_printed=f"H = {_text(printed.T @ momentum)} kg m^2/s; [BN] is no rotation",
-        as_corrected=f"H = {_text(correct.T @ momentum)} kg m^2/s",
-        statement=(
-            f"[BN] [BN]' differs from 1 by {before:.2f} as printed and by {after:.0e} with the "
-            f"factor; the printed formula gives |H| = {np.linalg.norm(printed.T @ momentum):.4f}, "
-            f"although |H| = {conserved:.4f} kg m^2/s is conserved"
-        ),
+        before > 1e-3 and after < ORTHOGONAL,
+        f"H = {_text(printed.T @ momentum)} kg m^2/s; [BN] is no rotation",
+        f"H = {_text(correct.T @ momentum)} kg m^2/s",
+        f"[BN] [BN]' differs from 1 by {before:.2f} as printed and by {after:.0e} with the "
+        f"factor; the printed formula gives |H| = {np.linalg.norm(printed.T @ momentum):.4f}, "
+        f"although |H| = {conserved:.4f} kg m^2/s is conserved",
     )
 
 
@@ -154,17 +146,13 @@ def gmo_frame_roots(grounds: Grounds) -> Proof:
     by_definition = np.array(gmo_frame(given.lmo, given.gmo, time))
     lengths = np.linalg.norm(printed, axis=1)
     return Proof(
-        holds=(
-            np.all(np.abs(lengths - 1) > 0.5)
-            and np.allclose(correct, by_definition, rtol=0, atol=ORTHOGONAL)
-        ),
-        as_printed=f"rows of length {', '.join(f'{length:.1e}' for length in lengths)} (km)",
-        as_corrected="rows of length 1, equal to Eq. 28",
-        statement=(
-            f"As printed the rows have lengths between {lengths.min():.1e} and "
-            f"{lengths.max():.1e}; with square roots of the denominators the matrix equals Eq. 28 "
-            f"to {np.max(np.abs(correct - by_definition)):.0e}, and the printed [RcN] follows"
-        ),
+        np.all(np.abs(lengths - 1) > 0.5)
+        and np.allclose(correct, by_definition, rtol=0, atol=ORTHOGONAL),
+        f"rows of length {', '.join(f'{length:.1e}' for length in lengths)} (km)",
+        "rows of length 1, equal to Eq. 28",
+        f"As printed the rows have lengths between {lengths.min():.1e} and "
+        f"{lengths.max():.1e}; with square roots of the denominators the matrix equals Eq. 28 "
+        f"to {np.max(np.abs(correct - by_definition)):.0e}, and the printed [RcN] follows",
     )
 
 
@@ -176,13 +164,11 @@ def gain_name(grounds: Grounds) -> Proof:
     right = damping_ratios(given.inertia, given.gains).max()
     required = section["requirements"]["largest_damping_ratio"]
     return Proof(
-        holds=np.isclose(right, required) and not np.isclose(wrong, required),
-        as_printed=f"K = {given.gains.p:.4f}: largest damping ratio {wrong:.2f}",
-        as_corrected=f"K = {given.gains.k:.4f}, P = {given.gains.p:.4f}: largest ratio {right:.2f}",
-        statement=(
-            f"Eq. 36 gives a largest damping ratio of {wrong:.3f} with K = {given.gains.p:.4f} and "
-            f"of {right:.3f} with K = {given.gains.k:.5f}; required is {required:g}"
-        ),
+        np.isclose(right, required) and not np.isclose(wrong, required),
+        f"K = {given.gains.p:.4f}: largest damping ratio {wrong:.2f}",
+        f"K = {given.gains.k:.4f}, P = {given.gains.p:.4f}: largest ratio {right:.2f}",
+        f"Eq. 36 gives a largest damping ratio of {wrong:.3f} with K = {given.gains.p:.4f} and "
+        f"of {right:.3f} with K = {given.gains.k:.5f}; required is {required:g}",
     )
 
 
@@ -191,17 +177,14 @@ def gain_fraction(grounds: Grounds) -> Proof:
     section = grounds.config["mars"]
     given = parameters(section)
     inertia, required = given.inertia.min(), section["requirements"]["largest_damping_ratio"]
-    # The numerator is P^2; the printed denominator reads 3/5.
-    printed = given.gains.p**2 / (3.0 / 5.0)
+    printed = grounds.ledger.value("section-x-b/k-intermediate-fraction").value
     correct = given.gains.p**2 / (required**2 * inertia)
     return Proof(
-        holds=np.isclose(correct, given.gains.k) and not np.isclose(printed, given.gains.k),
-        as_printed=f"{printed:.5f}",
-        as_corrected=f"{correct:.5f}",
-        statement=(
-            f"P^2 over 3/5 is {printed:.5f}; P^2 over the smallest inertia {inertia:g} kg m^2 is "
-            f"{correct:.5f} N m, the K that is used; the 3 may be a slip of the transcription"
-        ),
+        np.isclose(correct, given.gains.k) and not np.isclose(printed, given.gains.k),
+        f"{printed:.5f}",
+        f"{correct:.5f}",
+        f"P^2 over 3/5 is {printed:.5f}; P^2 over the smallest inertia {inertia:g} kg m^2 is "
+        f"{correct:.5f} N m, the K that is used; the 3 may be a slip of the transcription",
         correct=float(correct),
     )
 
@@ -216,13 +199,11 @@ def latitude_angle_start(grounds: Grounds) -> Proof:
     printed = grounds.ledger.values("section-iii-c/inertial-position-r-lmo-450-s/lmo")
     apart = float(np.linalg.norm(without - np.array(printed, dtype=float)))
     return Proof(
-        holds=_all_match(printed, correct) and not _all_match(printed, without),
-        as_printed=f"r = {_text(without, 1)} km",
-        as_corrected=f"r = {_text(correct, 1)} km",
-        statement=(
-            f"Without the initial angle the position at {time:g} s is {apart:.0f} km from the "
-            f"printed one, with it the printed digits come out"
-        ),
+        _all_match(printed, correct) and not _all_match(printed, without),
+        f"r = {_text(without, 1)} km",
+        f"r = {_text(correct, 1)} km",
+        f"Without the initial angle the position at {time:g} s is {apart:.0f} km from the "
+        f"printed one, with it the printed digits come out",
     )
 
 
@@ -246,15 +227,13 @@ def visibility_overlap(grounds: Grounds) -> Proof:
     separation = np.degrees(np.arccos(np.clip(np.sum(lmo * gmo, axis=1), -1.0, 1.0)))
     closest = np.min(np.abs(separation - limit))
     return Proof(
-        holds=np.any(as_printed != 1) and np.all(corrected == 1),
-        as_printed=f"{as_printed[1]} modes apply at {limit:g} deg",
-        as_corrected=f"{corrected[1]} mode applies: not visible is > {limit:g} deg",
-        statement=(
-            f"At {limit:g} deg both printed conditions, {visible} and {hidden}, hold; with > in "
-            f"the second exactly one holds at every angle. Nothing follows for the results: of "
-            f"{len(times)} times over the Mars day the closest to the limit is {closest:.1e} deg "
-            f"from it"
-        ),
+        np.any(as_printed != 1) and np.all(corrected == 1),
+        f"{as_printed[1]} modes apply at {limit:g} deg",
+        f"{corrected[1]} mode applies: not visible is > {limit:g} deg",
+        f"At {limit:g} deg both printed conditions, {visible} and {hidden}, hold; with > in "
+        f"the second exactly one holds at every angle. Nothing follows for the results: of "
+        f"{len(times)} times over the Mars day the closest to the limit is {closest:.1e} deg "
+        f"from it",
     )
 
 
@@ -269,14 +248,12 @@ def second_rate_panel(grounds: Grounds) -> Proof:
     if not np.isfinite(list(apart.values())).all():
         raise LookupError("a run overflowed")
     return Proof(
-        holds=min(apart.values()) > 1e-3,
-        as_printed="second panel of omega: omega_1",
-        as_corrected="second panel of omega: omega_2",
-        statement=(
-            f"omega_1 and omega_2 differ by up to {apart['no torque']:.3f} rad/s without torque "
-            f"and {apart['fixed torque']:.3f} rad/s under the fixed torque, so one cannot stand "
-            f"for the other; our panels draw omega_2"
-        ),
+        min(apart.values()) > 1e-3,
+        "second panel of omega: omega_1",
+        "second panel of omega: omega_2",
+        f"omega_1 and omega_2 differ by up to {apart['no torque']:.3f} rad/s without torque "
+        f"and {apart['fixed torque']:.3f} rad/s under the fixed torque, so one cannot stand "
+        f"for the other; our panels draw omega_2",
     )
 
 
@@ -293,14 +270,12 @@ def reference_rate_frame(grounds: Grounds) -> Proof:
     inertial = np.array(nadir_frame_rate(given.lmo, float(last["time_s"])))
     apart, correct = (float(np.linalg.norm(body_rate - one)) for one in (inertial, reference_rate))
     return Proof(
-        holds=apart > 0.1 * given.lmo.rate > 10.0 * correct,
-        as_printed=f"omega_R/N = {_text(1e6 * inertial, 0)}e-6 rad/s, inertial components",
-        as_corrected=f"omega_R/N = {_text(1e6 * reference_rate, 0)}e-6 rad/s, body components",
-        statement=(
-            f"At the end of the nadir run the body rate is {_text(1e6 * body_rate, 0)}e-6 rad/s: "
-            f"{apart:.1e} from the reference's rate in inertial components, which the listings "
-            f"plot beside it, and {correct:.1e} from it in body components, which our figures show"
-        ),
+        apart > 0.1 * given.lmo.rate > 10.0 * correct,
+        f"omega_R/N = {_text(1e6 * inertial, 0)}e-6 rad/s, inertial components",
+        f"omega_R/N = {_text(1e6 * reference_rate, 0)}e-6 rad/s, body components",
+        f"At the end of the nadir run the body rate is {_text(1e6 * body_rate, 0)}e-6 rad/s: "
+        f"{apart:.1e} from the reference's rate in inertial components, which the listings "
+        f"plot beside it, and {correct:.1e} from it in body components, which our figures show",
     )
 
 
@@ -310,13 +285,11 @@ def day_length(grounds: Grounds) -> Proof:
     listed = grounds.ledger.value("listing-a-l-task-11/tf-commented-out/day-long-run").value
     day = grounds.ledger.value(MARS_DAY).value
     return Proof(
-        holds=abs(period - day) < 0.5 < abs(period - listed),
-        as_printed=f"{listed:.0f} s",
-        as_corrected=f"{day:.0f} s",
-        statement=(
-            f"The areosynchronous rate of Table 2 makes a period of {period:.2f} s: the text's "
-            f"{day:.0f} s, not the listing's {listed:.0f} s"
-        ),
+        abs(period - day) < 0.5 < abs(period - listed),
+        f"{listed:.0f} s",
+        f"{day:.0f} s",
+        f"The areosynchronous rate of Table 2 makes a period of {period:.2f} s: the text's "
+        f"{day:.0f} s, not the listing's {listed:.0f} s",
         correct=float(period),
     )
 
@@ -339,13 +312,11 @@ def switch_thresholds(grounds: Grounds) -> Proof:
         angles = [(attitudes[0].inv() * other).magnitude().max() for other in attitudes[1:]]
         worst = max([worst, *(float(angle) for angle in angles)])
     return Proof(
-        holds=len(thresholds) > 1 and worst < 1e-6,
-        as_printed=f"thresholds {', '.join(f'{one:g}' for one in thresholds)}",
-        as_corrected="any one of them",
-        statement=(
-            f"All {len(thresholds)} thresholds give the same attitudes in the three pointing runs "
-            f"and the mission, to {worst:.1e} rad: an inconsistency without effect"
-        ),
+        len(thresholds) > 1 and worst < 1e-6,
+        f"thresholds {', '.join(f'{one:g}' for one in thresholds)}",
+        "any one of them",
+        f"All {len(thresholds)} thresholds give the same attitudes in the three pointing runs "
+        f"and the mission, to {worst:.1e} rad: an inconsistency without effect",
     )
 
 
@@ -359,15 +330,13 @@ def tracking_rate_formula(grounds: Grounds) -> Proof:
     table = grounds.ledger.values("table-3/omega-b-r-t0/sun-pointing")
     fails = any(one.matches(rate) for one, rate in zip(table, printed, strict=True))
     return Proof(
-        holds=_all_match(table, correct) and not fails,
-        as_printed=f"omega_B/R = {_text(printed, 4)} rad/s (Sun)",
-        as_corrected=f"omega_B/R = {_text(np.array(correct), 4)} rad/s (Sun)",
-        statement=(
-            f"As printed the rate relative to the resting Sun frame vanishes; without the repeated "
-            f"term it is {_text(np.array(correct), 4)} rad/s, and Table 3 prints "
-            f"{_text(np.array(table, dtype=float), 4)}; the repetition may be "
-            f"a slip of the transcription"
-        ),
+        _all_match(table, correct) and not fails,
+        f"omega_B/R = {_text(printed, 4)} rad/s (Sun)",
+        f"omega_B/R = {_text(np.array(correct), 4)} rad/s (Sun)",
+        f"As printed the rate relative to the resting Sun frame vanishes; without the repeated "
+        f"term it is {_text(np.array(correct), 4)} rad/s, and Table 3 prints "
+        f"{_text(np.array(table, dtype=float), 4)}; the repetition may be "
+        f"a slip of the transcription",
     )
 
 

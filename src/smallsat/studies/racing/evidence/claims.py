@@ -110,7 +110,7 @@ def mo_slower_than_meeny(grounds: Grounds) -> Judgement:
 
 
 def direction_is_the_trouble(grounds: Grounds) -> Judgement:
-    """Rings that our solve of the listings misses are counted, and those crossed off their normals."""
+    """Rings are counted that our solve of the listings misses or crosses off their normals."""
     rows = grounds.rows("races.csv", solution=AS_PUBLISHED)
     rings = rows["rings"].sum()
     return judged(
@@ -378,7 +378,7 @@ def penalty_is_exact(grounds: Grounds) -> Judgement:
 
 
 def optimum_is_confirmed(grounds: Grounds) -> Judgement:
-    """The optimum must stand up to independent flights, other starts, meshes and a method."""
+    """The optimum must stand up to other flights, starts and meshes, and to dynamic programming."""
     races = grounds.table("races.csv")
     ours = races[races["solution"].isin((WHOLE, ANYWHERE, GREEDY))]
     _complete(ours, "time_s")
@@ -395,14 +395,12 @@ def optimum_is_confirmed(grounds: Grounds) -> Judgement:
     whole = float(_races(grounds, WHOLE, scenario).loc[name, "time_s"])
     indirect = _complete(grounds.rows("races.csv", solution=INDIRECT), "rings")
     return judged(
-        (
-            (ours["not_converged"] == 0).all()
-            and ours["residual"].max() < CENTRED
-            and apart < AGREES
-            and meshes["converged"].all()
-            and change.between(0.0, 0.01).all()
-            and -1e-6 < dp["time_s"] - whole < AGREES
-        ),
+        (ours["not_converged"] == 0).all()
+        and ours["residual"].max() < CENTRED
+        and apart < AGREES
+        and meshes["converged"].all()
+        and change.between(0.0, 0.01).all()
+        and -1e-6 < dp["time_s"] - whole < AGREES,
         f"all {len(ours)} direct races converged, and flown anew they miss by "
         f"{ours['residual'].max():.0e} at most; {int(starts['converged'].sum())} of {len(starts)} "
         f"random guesses converge, to times within {max(apart, 1e-12):.0e} s; "

@@ -75,16 +75,14 @@ def start_covariance(grounds: Grounds) -> Proof:
     misfits, _, wrong = _matched(grounds, given, printed)
     probability = scatter_probability(given, printed)
     return Proof(
-        holds=fits >= of - 1 and misfits < of // 2 and probability < PROBABLE,
-        as_printed=f"{misfits} of {of} coordinates, off by up to {wrong:.1f} m",
-        as_corrected=f"{fits} of {of} to the printed digit, the rest within {error:.2f} m",
-        statement=(
-            f"the normal draws after the courses' in the streams of both seeds give {fits} of "
-            f"{of} printed x and z to the digit with a variance of {right:.2f} m^2, and {misfits} "
-            f"with {printed:g} m^2; without the streams, the scatter of Table 1 around the known "
-            f"start has a probability of {probability:.2g} under the printed variance and "
-            f"{scatter_probability(given, right):.2g} under the other"
-        ),
+        fits >= of - 1 and misfits < of // 2 and probability < PROBABLE,
+        f"{misfits} of {of} coordinates, off by up to {wrong:.1f} m",
+        f"{fits} of {of} to the printed digit, the rest within {error:.2f} m",
+        f"the normal draws after the courses' in the streams of both seeds give {fits} of "
+        f"{of} printed x and z to the digit with a variance of {right:.2f} m^2, and {misfits} "
+        f"with {printed:g} m^2; without the streams, the scatter of Table 1 around the known "
+        f"start has a probability of {probability:.2g} under the printed variance and "
+        f"{scatter_probability(given, right):.2g} under the other",
         correct=right,
     )
 
@@ -99,13 +97,11 @@ def start_ring_comment(grounds: Grounds) -> Proof:
     fits, of, _ = _matched(grounds, given, right)
     misfits, _, wrong = _matched(grounds, given, right * printed / used)
     return Proof(
-        holds=fits >= of - 1 and misfits < of // 2,
-        as_printed=f"{misfits} of {of} coordinates, off by up to {wrong:.1f} m",
-        as_corrected=f"{fits} of {of} coordinates",
-        statement=(
-            f"with {printed:g} times the largest axis the draws give {misfits} of {of} "
-            f"printed coordinates, with {used:g} times {fits}"
-        ),
+        fits >= of - 1 and misfits < of // 2,
+        f"{misfits} of {of} coordinates, off by up to {wrong:.1f} m",
+        f"{fits} of {of} coordinates",
+        f"with {printed:g} times the largest axis the draws give {misfits} of {of} "
+        f"printed coordinates, with {used:g} times {fits}",
         correct=float(used),
     )
 
@@ -123,14 +119,12 @@ def angle_steps(grounds: Grounds) -> Proof:
         misfits.append(not printed.matches(whole))
         texts.append((f"{whole:.1f}", f"{halved:.1f}", grounds.ledger.literal(y)))
     return Proof(
-        holds=all(fits) and all(misfits),
-        as_printed=", ".join(text[0] for text in texts) + " m",
-        as_corrected=", ".join(text[1] for text in texts) + " m",
-        statement=(
-            f"the start's y is printed as {' and '.join(text[2] for text in texts)} m; the halved "
-            f"ranges give {' and '.join(text[1] for text in texts)} m, the whole ones "
-            f"{' and '.join(text[0] for text in texts)} m"
-        ),
+        all(fits) and all(misfits),
+        ", ".join(text[0] for text in texts) + " m",
+        ", ".join(text[1] for text in texts) + " m",
+        f"the start's y is printed as {' and '.join(text[2] for text in texts)} m; the halved "
+        f"ranges give {' and '.join(text[1] for text in texts)} m, the whole ones "
+        f"{' and '.join(text[0] for text in texts)} m",
     )
 
 
@@ -160,14 +154,12 @@ def costate_transpose(grounds: Grounds) -> Proof:
     right_first, right_last = hamiltonian_drift(grounds.config, transposed=True)
     drift, rest = abs(last - first), abs(right_last - right_first)
     return Proof(
-        holds=drift > DRIFTING * abs(first) and rest < CONSTANT * abs(right_first),
-        as_printed=f"H from {first:.4f} to {last:.4f} in {SECONDS:g} s",
-        as_corrected=f"H constant to {max(rest, 1e-15):.0e}",
-        statement=(
-            f"flown for {SECONDS:g} s from the listing's guess, the Hamiltonian goes from "
-            f"{first:.4f} to {last:.4f} with the printed matrix and stays within "
-            f"{max(rest, 1e-15):.0e} with the transposed one, as Section II.B.5 says it must"
-        ),
+        drift > DRIFTING * abs(first) and rest < CONSTANT * abs(right_first),
+        f"H from {first:.4f} to {last:.4f} in {SECONDS:g} s",
+        f"H constant to {max(rest, 1e-15):.0e}",
+        f"flown for {SECONDS:g} s from the listing's guess, the Hamiltonian goes from "
+        f"{first:.4f} to {last:.4f} with the printed matrix and stays within "
+        f"{max(rest, 1e-15):.0e} with the transposed one, as Section II.B.5 says it must",
     )
 
 
@@ -198,14 +190,12 @@ def adjoint_transition(grounds: Grounds) -> Proof:
     mended = 3.0 * t - 4.0 / n * np.sin(n * t)
     right = abs(mended - exact[4, 1]) < 1e-9 * abs(exact[4, 1])
     return Proof(
-        holds=wrong == [(5, 2)] and right,
-        as_printed=f"{printed[4, 1]:.3f} s after {t:g} s",
-        as_corrected=f"{mended:.3f} s",
-        statement=(
-            f"of the 36 entries after {t:g} s the matrix exponential differs in "
-            f"{len(wrong)}, {wrong}: it has {exact[4, 1]:.3f} where the print gives "
-            f"{printed[4, 1]:.3f} and the correction {mended:.3f}"
-        ),
+        wrong == [(5, 2)] and right,
+        f"{printed[4, 1]:.3f} s after {t:g} s",
+        f"{mended:.3f} s",
+        f"of the 36 entries after {t:g} s the matrix exponential differs in "
+        f"{len(wrong)}, {wrong}: it has {exact[4, 1]:.3f} where the print gives "
+        f"{printed[4, 1]:.3f} and the correction {mended:.3f}",
     )
 
 
@@ -214,15 +204,13 @@ def ring_size(grounds: Grounds) -> Proof:
     course = parameters(grounds.config["racing"]).races["scenario-1"].course
     least = [float(np.min(np.diag(axes))) for axes in course.semi_axes]
     return Proof(
-        holds=max(least) == 0.0 and course.sizes.min() > 0.0,
-        as_printed="0 m for every ring",
-        as_corrected=f"{course.sizes.min():.2f} to {course.sizes.max():.2f} m",
-        statement=(
-            f"for all {course.rings} rings the least entry of diag(a, b) is 0, while the smaller "
-            f"axes are {course.sizes.min():.2f} to {course.sizes.max():.2f} m: by the listing no "
-            f"point but the centre is inside. The listing that builds S is not printed; it is "
-            f"taken as Section I defines it"
-        ),
+        max(least) == 0.0 and course.sizes.min() > 0.0,
+        "0 m for every ring",
+        f"{course.sizes.min():.2f} to {course.sizes.max():.2f} m",
+        f"for all {course.rings} rings the least entry of diag(a, b) is 0, while the smaller "
+        f"axes are {course.sizes.min():.2f} to {course.sizes.max():.2f} m: by the listing no "
+        f"point but the centre is inside. The listing that builds S is not printed; it is "
+        f"taken as Section I defines it",
     )
 
 
@@ -239,20 +227,16 @@ def axial_thrust(grounds: Grounds) -> Proof:
     best = np.array(thrust_components(PRIMER, AXIS_BY_AXIS, limits, deadzone))
     exceeds = float((np.abs(listing) / limits).max())
     return Proof(
-        holds=(
-            equation[1] == 0.0
-            and abs(listing[1]) > 0.0
-            and exceeds > 1.0
-            and PRIMER @ best < PRIMER @ equation
-        ),
-        as_printed=f"u = {_vector(equation)}, p.u = {PRIMER @ equation:.4f}",
-        as_corrected=f"code: {_vector(listing)}; minimiser: {_vector(best)}",
-        statement=(
-            f"for a primer of {_vector(PRIMER)} Eq. 24 gives {_vector(equation)} m/s^2, the code "
-            f"{_vector(listing)}, which has the axis that should be off and {exceeds:.2f} times "
-            f"the limit of another, and the minimiser over the limits of Table 1 {_vector(best)}; "
-            f"p.u is {PRIMER @ equation:.3f}, {PRIMER @ listing:.3f} and {PRIMER @ best:.3f}"
-        ),
+        equation[1] == 0.0
+        and abs(listing[1]) > 0.0
+        and exceeds > 1.0
+        and PRIMER @ best < PRIMER @ equation,
+        f"u = {_vector(equation)}, p.u = {PRIMER @ equation:.4f}",
+        f"code: {_vector(listing)}; minimiser: {_vector(best)}",
+        f"for a primer of {_vector(PRIMER)} Eq. 24 gives {_vector(equation)} m/s^2, the code "
+        f"{_vector(listing)}, which has the axis that should be off and {exceeds:.2f} times "
+        f"the limit of another, and the minimiser over the limits of Table 1 {_vector(best)}; "
+        f"p.u is {PRIMER @ equation:.3f}, {PRIMER @ listing:.3f} and {PRIMER @ best:.3f}",
     )
 
 
@@ -316,15 +300,12 @@ def redundant_equalities(grounds: Grounds) -> Proof:
     segments = grounds.table("as-published-scenario-1-segments.csv")
     share = float((~segments["converged"]).mean())
     return Proof(
-        holds=moving <= 5 and rank == 3 and pointing == 2 and slipped == 4,
-        as_printed="12 equalities",
-        as_corrected=f"{rank} independent ones",
-        statement=(
-            f"at a converged segment only {moving} of the twelve rows depend on the unknowns at "
-            f"all, the three rows of pointing have rank {pointing}, and all together rank {rank}: "
-            f"two of direction, and H = -1, which the length of the costates can always meet. "
-            f"With the listing's costates H0 = Hf is no identity but a condition of its own, rank "
-            f"{slipped}. In our elastic solve of the listing {100 * share:.0f} % of the segments "
-            f"end unconverged"
-        ),
+        moving <= 5 and rank == 3 and pointing == 2 and slipped == 4,
+        "12 equalities",
+        f"{rank} independent ones",
+        f"at a converged segment only {moving} of the twelve rows depend on the unknowns at all, "
+        f"the three rows of pointing have rank {pointing}, and all together rank {rank}: two of "
+        f"direction, and H = -1, which the length of the costates can always meet. With the "
+        f"listing's costates H0 = Hf is no identity but a condition of its own, rank {slipped}. "
+        f"In our elastic solve of the listing {100 * share:.0f} % of the segments end unconverged",
     )

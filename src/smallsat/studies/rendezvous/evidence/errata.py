@@ -38,17 +38,14 @@ def control_bound_unit(grounds: Grounds) -> Proof:
     printed = printed_steps(section, grounds.ledger)
     fewest = min(printed[case, "far"] for case in ("v-bar", "r-bar"))
     return Proof(
-        holds=whole and pulses[0] > 1.0 and steps < fewest / 2 < impulse_steps,
-        as_printed=f"{distance:.0f} m in {np.ceil(steps):.0f} far-range steps",
-        as_corrected=f"in {np.ceil(impulse_steps):.0f} steps; printed are {fewest}",
-        statement=(
-            f"A thruster of {craft['thruster_N']:g} N gives {craft['mass_kg']:g} kg at most "
-            f"{push:.4f} m/s^2; the bounds are that times "
-            f"{', '.join(f'{pulse:.2f}' for pulse in pulses)} s, whole seconds to "
-            f"the printed digits. Held as accelerations they would bring the chaser over the start "
-            f"distance and to rest in {np.ceil(steps):.0f} steps, and five times the thrust at "
-            f"hand would be needed"
-        ),
+        whole and pulses[0] > 1.0 and steps < fewest / 2 < impulse_steps,
+        f"{distance:.0f} m in {np.ceil(steps):.0f} far-range steps",
+        f"in {np.ceil(impulse_steps):.0f} steps; printed are {fewest}",
+        f"A thruster of {craft['thruster_N']:g} N gives {craft['mass_kg']:g} kg at most "
+        f"{push:.4f} m/s^2; the bounds are that times "
+        f"{', '.join(f'{pulse:.2f}' for pulse in pulses)} s, whole seconds to the printed digits. "
+        f"Held as accelerations they would bring the chaser over the start distance and to rest "
+        f"in {np.ceil(steps):.0f} steps, and five times the thrust at hand would be needed",
     )
 
 
@@ -57,10 +54,10 @@ def initial_distance(grounds: Grounds) -> Proof:
     distance = float(np.linalg.norm(start_state(grounds.config["rendezvous"])[:3])) / 1000.0
     printed = grounds.ledger.value("section-3-6/initial-chaser-distance/all-cases")
     return Proof(
-        holds=not printed.matches(distance),
-        as_printed=f"{printed.value:g} km",
-        as_corrected=f"{distance:.3f} km",
-        statement=f"The position of Table 3.2 has the length {1000.0 * distance:.1f} m",
+        not printed.matches(distance),
+        f"{printed.value:g} km",
+        f"{distance:.3f} km",
+        f"The position of Table 3.2 has the length {1000.0 * distance:.1f} m",
         correct=distance,
     )
 
@@ -75,14 +72,12 @@ def thrust_as_delta_v(grounds: Grounds) -> Proof:
     name = "chapter-1/maximum-thrust-order-of-small-satellite-propulsion/background"
     printed = grounds.ledger.value(name)
     return Proof(
-        holds=printed.matches(craft["thruster_N"]) and abs(seconds - 1.0) > 0.5,
-        as_printed="a delta-v in newtons",
-        as_corrected=f"a thrust: {craft['thruster_N']:g} N < {printed.value:g} N",
-        statement=(
-            f"Thrust and delta-v differ by a time over the mass: the largest delta-v of a step is "
-            f"{bound:g} m/s, {seconds:.0f} s of {craft['thruster_N']:g} N on {craft['mass_kg']:g} "
-            f"kg; Section 2.1.2 cites the same source for thrusts up to {printed.value:g} N"
-        ),
+        printed.matches(craft["thruster_N"]) and abs(seconds - 1.0) > 0.5,
+        "a delta-v in newtons",
+        f"a thrust: {craft['thruster_N']:g} N < {printed.value:g} N",
+        f"Thrust and delta-v differ by a time over the mass: the largest delta-v of a step is "
+        f"{bound:g} m/s, {seconds:.0f} s of {craft['thruster_N']:g} N on {craft['mass_kg']:g} "
+        f"kg; Section 2.1.2 cites the same source for thrusts up to {printed.value:g} N",
     )
 
 
@@ -95,15 +90,13 @@ def port_axis(grounds: Grounds) -> Proof:
     angle = float(np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0))))
     cone = section["phases"]["final"]["cone_angle_deg"]
     return Proof(
-        holds=angle > cone,
-        as_printed=f"port and approach axis {angle:.0f} deg apart",
-        as_corrected="0 deg, with the body's x axis along the approach axis",
-        statement=(
-            f"With the body's axes along those of the orbit the port lies {angle:.0f} deg off the "
-            f"V-bar, and the cone of {cone:g} deg opens along the V-bar. Sections 3.6.1 and 3.6.3 "
-            f"dock at a port in the direction of the cone, so the body is turned, by an attitude "
-            f"that is not printed"
-        ),
+        angle > cone,
+        f"port and approach axis {angle:.0f} deg apart",
+        "0 deg, with the body's x axis along the approach axis",
+        f"With the body's axes along those of the orbit the port lies {angle:.0f} deg off the "
+        f"V-bar, and the cone of {cone:g} deg opens along the V-bar. Sections 3.6.1 and 3.6.3 "
+        f"dock at a port in the direction of the cone, so the body is turned, by an attitude "
+        f"that is not printed",
     )
 
 
@@ -116,17 +109,13 @@ def on_time(grounds: Grounds) -> Proof:
     force = mass * delta_v / sample  # "F dt = m dv"
     printed, correct = force / thrust, force * sample / thrust
     return Proof(
-        holds=(
-            abs(thrust * correct / mass - delta_v) < ROUNDING
-            and abs(thrust * printed / mass - delta_v) > 0.5 * delta_v
-        ),
-        as_printed=f"{printed:.3f}, without a unit",
-        as_corrected=f"{correct:.2f} s",
-        statement=(
-            f"For {delta_v:g} m/s the printed ratio, taken in seconds, gives an impulse of "
-            f"{thrust * printed:.3f} N s where {mass * delta_v:.2f} N s are needed; with the "
-            f"sample time it gives them exactly"
-        ),
+        abs(thrust * correct / mass - delta_v) < ROUNDING
+        and abs(thrust * printed / mass - delta_v) > 0.5 * delta_v,
+        f"{printed:.3f}, without a unit",
+        f"{correct:.2f} s",
+        f"For {delta_v:g} m/s the printed ratio, taken in seconds, gives an impulse of "
+        f"{thrust * printed:.3f} N s where {mass * delta_v:.2f} N s are needed; with the "
+        f"sample time it gives them exactly",
     )
 
 
@@ -151,17 +140,13 @@ def last_state_twice(grounds: Grounds) -> Proof:
     corrected = running + float(state @ rest @ state)
     printed = corrected + float(state @ weights @ state)
     return Proof(
-        holds=(
-            abs(corrected / infinite - 1.0) < ROUNDING
-            and abs(printed / infinite - 1.0) > 100.0 * ROUNDING
-        ),
-        as_printed=f"off by {printed / infinite - 1.0:.1e} of the cost",
-        as_corrected=f"equal to it within {ROUNDING:g}",
-        statement=(
-            "Without constraints the cost with the Riccati weight of Section 2.2.2 must equal that "
-            "of the infinite horizon. Summed to N - 1 it does; summed to N it exceeds it by the "
-            "last state's stage cost, and the control u_N, which moves nothing, is paid for"
-        ),
+        abs(corrected / infinite - 1.0) < ROUNDING
+        and abs(printed / infinite - 1.0) > 100.0 * ROUNDING,
+        f"off by {printed / infinite - 1.0:.1e} of the cost",
+        f"equal to it within {ROUNDING:g}",
+        "Without constraints the cost with the Riccati weight of Section 2.2.2 must equal that "
+        "of the infinite horizon. Summed to N - 1 it does; summed to N it exceeds it by the "
+        "last state's stage cost, and the control u_N, which moves nothing, is paid for",
     )
 
 
@@ -184,14 +169,11 @@ def quadratic_stage_cost(grounds: Grounds) -> Proof:
     correct = curvature(lambda u: u @ (weight * u))
     exact = 2.0 * weight * float(direction @ direction)
     return Proof(
-        holds=abs(printed) < 1e-6 * exact and abs(correct / exact - 1.0) < 1e-6,
-        as_printed="no curvature: the 1-norm of Eq. 2.11a again",
-        as_corrected=f"u' R u has a curvature of {correct:.0f} along a sample direction",
-        statement=(
-            f"Differences of second order along a sample direction give the printed form a "
-            f"curvature of zero, where R makes {exact:.0f}: both lines of Eq. 2.11 are the same "
-            f"function"
-        ),
+        abs(printed) < 1e-6 * exact and abs(correct / exact - 1.0) < 1e-6,
+        "no curvature: the 1-norm of Eq. 2.11a again",
+        f"u' R u has a curvature of {correct:.0f} along a sample direction",
+        f"Differences of second order along a sample direction give the printed form a curvature "
+        f"of zero, where R makes {exact:.0f}: both lines of Eq. 2.11 are the same function",
     )
 
 
@@ -212,15 +194,12 @@ def docking_cone_apex(grounds: Grounds) -> Proof:
         printed = max(printed, float(np.max(faces @ (port - given.port * last))))
         corrected = max(corrected, float(np.max(faces @ (port - port))))
     return Proof(
-        holds=printed > ROUNDING and corrected <= 0.0,
-        as_printed=f"a docked chaser is outside by up to {1000.0 * printed:.0f} mm",
-        as_corrected="a docked chaser is at the tip of the cone at every stage",
-        statement=(
-            f"With the rotation of Case 3, inferred, the port moves by "
-            f"{1000.0 * moved:.0f} mm over the horizon of {duration:g} s; the printed constraint "
-            f"has the tip of every stage's cone at the port's last place, while H and the "
-            f"reference of Eq. 3.11 go with the stage"
-        ),
+        printed > ROUNDING and corrected <= 0.0,
+        f"a docked chaser is outside by up to {1000.0 * printed:.0f} mm",
+        "a docked chaser is at the tip of the cone at every stage",
+        f"With the rotation of Case 3, inferred, the port moves by {1000.0 * moved:.0f} mm over "
+        f"the horizon of {duration:g} s; the printed constraint has the tip of every stage's cone "
+        f"at the port's last place, while H and the reference of Eq. 3.11 go with the stage",
     )
 
 
@@ -236,14 +215,12 @@ def rendezvous_end_distance(grounds: Grounds) -> Proof:
     distance, end = np.linalg.norm(far, axis=1), float(np.linalg.norm(mid[0]))
     never = bool((distance > keep_out - 1e-6 * keep_out).all() and end > keep_out)
     return Proof(
-        holds=never,
-        as_printed=f"never within r1: {distance.min():.1f} m is the least of {len(far)} samples",
-        as_corrected=f"ends at {end:.1f} m",
-        statement=(
-            f"Eq. 3.5 makes n'x >= r1 and so |x| >= r1 at every predicted step. In our run of "
-            f"Case 1 no sample of the far range comes within r1 = {keep_out:.1f} m, inferred; the "
-            f"end needs a margin above r1, which is not printed"
-        ),
+        never,
+        f"never within r1: {distance.min():.1f} m is the least of {len(far)} samples",
+        f"ends at {end:.1f} m",
+        f"Eq. 3.5 makes n'x >= r1 and so |x| >= r1 at every predicted step. In our run of "
+        f"Case 1 no sample of the far range comes within r1 = {keep_out:.1f} m, inferred; the "
+        f"end needs a margin above r1, which is not printed",
     )
 
 
@@ -257,14 +234,12 @@ def rendezvous_end_cone(grounds: Grounds) -> Proof:
     start = start_state(section)[:3]
     inside, outside = float((faces @ end).max()), float((faces @ start).max())
     return Proof(
-        holds=len(faces) != len(end) and inside <= ROUNDING < outside,
-        as_printed=f"{len(end)} entries against {len(faces)}",
-        as_corrected=f"largest of H x: {outside:.0f} m at the start, {inside:.1f} m at the end",
-        statement=(
-            f"H has {len(faces)} rows for the polyhedron of Section 3.1.2 and x has {len(end)} "
-            f"components, so the printed condition is no condition; Hx <= 0 is false where Case 1 "
-            f"starts and true where our run of it enters the mid range"
-        ),
+        len(faces) != len(end) and inside <= ROUNDING < outside,
+        f"{len(end)} entries against {len(faces)}",
+        f"largest of H x: {outside:.0f} m at the start, {inside:.1f} m at the end",
+        f"H has {len(faces)} rows for the polyhedron of Section 3.1.2 and x has {len(end)} "
+        f"components, so the printed condition is no condition; Hx <= 0 is false where Case 1 "
+        f"starts and true where our run of it enters the mid range",
     )
 
 
@@ -279,13 +254,11 @@ def approach_end_vector(grounds: Grounds) -> Proof:
     wrong = (mirrored <= overshoot).all(axis=1) & (distance > 2.0 * overshoot)
     reach = float(distance[wrong].max(initial=0.0))
     return Proof(
-        holds=wrong.any(),
-        as_printed=f"true at up to {reach:.0f} m from the target",
-        as_corrected=f"|x| <= r2 is false wherever |x| > {overshoot:.1f} m",
-        statement=(
-            f"A vector is not below a number. Read by components, the condition is true at "
-            f"{int(wrong.sum())} of {len(mid)} samples of our mid ranges, mirrored to a port on "
-            f"the other side of the target, although they lie farther off than twice r2 = "
-            f"{overshoot:.1f} m, inferred. Section 3.3 speaks of the distance"
-        ),
+        wrong.any(),
+        f"true at up to {reach:.0f} m from the target",
+        f"|x| <= r2 is false wherever |x| > {overshoot:.1f} m",
+        f"A vector is not below a number. Read by components, the condition is true at "
+        f"{int(wrong.sum())} of {len(mid)} samples of our mid ranges, mirrored to a port on "
+        f"the other side of the target, although they lie farther off than twice r2 = "
+        f"{overshoot:.1f} m, inferred. Section 3.3 speaks of the distance",
     )

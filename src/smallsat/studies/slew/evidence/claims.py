@@ -384,12 +384,10 @@ def plans_are_optimal(grounds: Grounds) -> Judgement:
     spread = float(max(table["hamiltonian_spread"].max(), times["hamiltonian_spread"].max()))
     torque = float(table["largest_torque_share"].max())
     return judged(
-        (
-            table["held_converged"].all()
-            and miss < INDEPENDENT_MISS
-            and torque <= 1.0
-            and spread < 0.05
-        ),
+        table["held_converged"].all()
+        and miss < INDEPENDENT_MISS
+        and torque <= 1.0
+        and spread < 0.05,
         f"every reported optimum has converged; flown anew by another integrator they miss their "
         f"end by at most {miss:.0e} rad; torque never exceeds {100 * torque:.1f} % of the limit at "
         f"or between points; the Hamiltonian varies by at most {100 * spread:.1f} % over a plan, "

@@ -33,14 +33,12 @@ def table_3_time_optimal(grounds: Grounds) -> Proof:
     printed = grounds.ledger.value("table-3/t-min/90-deg-time-optimal").value
     implied = printed / scales[0]
     return Proof(
-        holds=abs(row["t_min"] - printed) > 1.0 and abs(implied * scales[1] - row["t_max"]) > 1.0,
-        as_printed=f"{printed:.2f} s, a scaled time of {implied:.3f}",
-        as_corrected=f"{row['t_min']:.2f} s, a scaled time of {row['t_hat']:.4f}",
-        statement=(
-            f"Eq. 30 gives both columns from one scaled time; {printed:.2f} s would "
-            f"imply {implied:.3f} and {implied * scales[1]:.2f} s in the other column, where the "
-            f"document has what follows from our least time of {row['t_hat']:.4f}"
-        ),
+        abs(row["t_min"] - printed) > 1.0 and abs(implied * scales[1] - row["t_max"]) > 1.0,
+        f"{printed:.2f} s, a scaled time of {implied:.3f}",
+        f"{row['t_min']:.2f} s, a scaled time of {row['t_hat']:.4f}",
+        f"Eq. 30 gives both columns from one scaled time; {printed:.2f} s would "
+        f"imply {implied:.3f} and {implied * scales[1]:.2f} s in the other column, where the "
+        f"document has what follows from our least time of {row['t_hat']:.4f}",
         correct=row["t_min"],
     )
 
@@ -54,15 +52,11 @@ def table_3_eigenaxis(grounds: Grounds) -> Proof:
     turned = np.degrees(given.torque / moment * (printed.value / 2.0) ** 2)
     exact = np.degrees(given.torque / moment * (row["t_max"] / 2.0) ** 2)
     return Proof(
-        holds=(
-            abs(row["t_max"] - printed.value) > 2 * printed.half_unit and abs(exact - 90.0) < 1e-6
-        ),
-        as_printed=f"{printed.value:.2f} s turns the body by {turned:.2f} deg",
-        as_corrected=f"{row['t_max']:.2f} s turns it by {exact:.2f} deg",
-        statement=(
-            f"2 sqrt(angle J / u) = {row['t_max']:.3f} s for J = {moment:g} kg m^2; in the printed "
-            f"time the wheels turn the body by {turned:.2f} deg only"
-        ),
+        abs(row["t_max"] - printed.value) > 2 * printed.half_unit and abs(exact - 90.0) < 1e-6,
+        f"{printed.value:.2f} s turns the body by {turned:.2f} deg",
+        f"{row['t_max']:.2f} s turns it by {exact:.2f} deg",
+        f"2 sqrt(angle J / u) = {row['t_max']:.3f} s for J = {moment:g} kg m^2; in the printed "
+        f"time the wheels turn the body by {turned:.2f} deg only",
         correct=row["t_max"],
     )
 
@@ -74,19 +68,12 @@ def table_2_velocity_sign(grounds: Grounds) -> Proof:
     before, after = (grounds.ledger.value(f"table-2/{r}/z").value for r in ("r-0", "r-f"))
     printed = grounds.ledger.value("table-2/v-f/z")
     return Proof(
-        holds=(
-            ours < 0.0
-            and (table["vz_km_s"] < 0.0).all()
-            and after < before
-            and printed.matches(-ours)
-        ),
-        as_printed=f"v_z = +{printed.value:g} km/s, rising",
-        as_corrected=f"v_z = {ours:.6f} km/s, falling",
-        statement=(
-            f"Table 2 itself has z falling from {before} to {after} km from a v_z of practically "
-            f"zero; all {len(table)} propagations (two starts, with and without J2, two "
-            f"integrators) give a negative v_z, with J2 of the printed magnitude"
-        ),
+        ours < 0.0 and (table["vz_km_s"] < 0.0).all() and after < before and printed.matches(-ours),
+        f"v_z = +{printed.value:g} km/s, rising",
+        f"v_z = {ours:.6f} km/s, falling",
+        f"Table 2 itself has z falling from {before} to {after} km from a v_z of practically "
+        f"zero; all {len(table)} propagations (two starts, with and without J2, two "
+        f"integrators) give a negative v_z, with J2 of the printed magnitude",
         correct=ours,
     )
 
@@ -107,17 +94,15 @@ def peak_momentum(grounds: Grounds) -> Proof:
         )
     )
     return Proof(
-        holds=fits <= 1.0 and together > 5.0,
-        as_printed=f"{printed} %",
-        as_corrected=f"{peak:.2f} %",
-        statement=(
-            f"The printed controller gives {peak:.2f} % and the seven other printed values of both "
-            f"turns, to {fits:.1f} half units of their last digits. With {printed} % "
-            f"instead, the nearest of all stiffnesses and dampings, three feedback laws and four "
-            f"holding times misses some value by {together:.0f} half units; for 90 deg alone other "
-            f"gains with a held torque come within {alone:.1f}. That the value is a misprint is an "
-            f"inference from this family of controllers"
-        ),
+        fits <= 1.0 and together > 5.0,
+        f"{printed} %",
+        f"{peak:.2f} %",
+        f"The printed controller gives {peak:.2f} % and the seven other printed values of both "
+        f"turns, to {fits:.1f} half units of their last digits. With {printed} % "
+        f"instead, the nearest of all stiffnesses and dampings, three feedback laws and four "
+        f"holding times misses some value by {together:.0f} half units; for 90 deg alone other "
+        f"gains with a held torque come within {alone:.1f}. That the value is a misprint is an "
+        f"inference from this family of controllers",
         correct=peak,
     )
 
@@ -134,18 +119,14 @@ def dimensions(grounds: Grounds) -> Proof:
     end = size["breadth"] * size["height"]
     density = craft["mass_kg"] / (printed * height)
     return Proof(
-        holds=(
-            np.isclose(correct, areas["side"])
-            and np.isclose(end, areas["end"])
-            and not np.isclose(printed, areas["side"])
-        ),
-        as_printed=f"l b = {printed:g} m^2, and {density:.2g} kg/m^3",
-        as_corrected=f"l b = {correct:g} m^2, as in Table 5",
-        statement=(
-            f"Table 5 has panels of {areas['side']} and {areas['end']} m^2, which are l b and b h "
-            f"of the sizes ten times the printed ones; with those the mass of "
-            f"{craft['mass_kg']:g} kg would have a density of {density:.2g} kg/m^3"
-        ),
+        np.isclose(correct, areas["side"])
+        and np.isclose(end, areas["end"])
+        and not np.isclose(printed, areas["side"]),
+        f"l b = {printed:g} m^2, and {density:.2g} kg/m^3",
+        f"l b = {correct:g} m^2, as in Table 5",
+        f"Table 5 has panels of {areas['side']} and {areas['end']} m^2, which are l b and b h "
+        f"of the sizes ten times the printed ones; with those the mass of "
+        f"{craft['mass_kg']:g} kg would have a density of {density:.2g} kg/m^3",
         correct=f"l = {size['length']:g} m, b = h = {size['breadth']:g} m",
     )
 
@@ -161,13 +142,11 @@ def scaled_derivative(grounds: Grounds) -> Proof:
     printed = float(np.max(np.abs(slope / exact - 1.0)))
     correct = float(np.max(np.abs(2.0 / duration * slope / exact - 1.0)))
     return Proof(
-        holds=printed > 0.5 and correct < ROUNDING,
-        as_printed=f"d(t^2)/dt is wrong by a factor of {duration / 2:g}",
-        as_corrected="2 / (tf - t0) D X: exact for polynomials",
-        statement=(
-            f"Applied to t^2 on {duration:g} s the printed form is off by a factor of "
-            f"{duration / 2:g}; with 2 / (tf - t0), as in Eq. 14, the error is below {ROUNDING:g}"
-        ),
+        printed > 0.5 and correct < ROUNDING,
+        f"d(t^2)/dt is wrong by a factor of {duration / 2:g}",
+        "2 / (tf - t0) D X: exact for polynomials",
+        f"Applied to t^2 on {duration:g} s the printed form is off by a factor of "
+        f"{duration / 2:g}; with 2 / (tf - t0), as in Eq. 14, the error is below {ROUNDING:g}",
     )
 
 
@@ -177,13 +156,11 @@ def matrix_size(grounds: Grounds) -> Proof:
     matrix = differentiation_matrix(points)
     rows, columns = matrix.shape
     return Proof(
-        holds=rows == NODES and columns == NODES + 1,
-        as_printed="(N + 1) x (N + 1)",
-        as_corrected="N x (N + 1)",
-        statement=(
-            f"The dynamics are collocated at the N Gauss points alone (Section IV.A): for N = "
-            f"{NODES} the matrix has {rows} rows and {columns} columns"
-        ),
+        rows == NODES and columns == NODES + 1,
+        "(N + 1) x (N + 1)",
+        "N x (N + 1)",
+        f"The dynamics are collocated at the N Gauss points alone (Section IV.A): for N = "
+        f"{NODES} the matrix has {rows} rows and {columns} columns",
     )
 
 
@@ -195,13 +172,11 @@ def weight_argument(grounds: Grounds) -> Proof:
     value = np.polynomial.legendre.Legendre.basis(NODES)(points)
     error = float(np.max(np.abs(correct - weights)))
     return Proof(
-        holds=error < ROUNDING and np.max(np.abs(value)) < ROUNDING,
-        as_printed="[P'_N]^2, called the polynomial itself",
-        as_corrected="[P'_N(tau_k)]^2, the derivative at the point",
-        statement=(
-            f"With the derivative at the point the weights are those of the quadrature to "
-            f"{ROUNDING:g}; the polynomial itself, which the text names, vanishes there"
-        ),
+        error < ROUNDING and np.max(np.abs(value)) < ROUNDING,
+        "[P'_N]^2, called the polynomial itself",
+        "[P'_N(tau_k)]^2, the derivative at the point",
+        f"With the derivative at the point the weights are those of the quadrature to "
+        f"{ROUNDING:g}; the polynomial itself, which the text names, vanishes there",
     )
 
 
@@ -232,15 +207,13 @@ def gradient_axis(grounds: Grounds) -> Proof:
     same = float(np.linalg.norm(printed() - along) / np.linalg.norm(along))
     off = float(np.linalg.norm(printed() - moved) / np.linalg.norm(moved))
     return Proof(
-        holds=same < ROUNDING and off > 0.01,
-        as_printed=f"wrong by {100 * off:.0f} % after {duration:g} s",
-        as_corrected="3 mu / r^5 r x J r, for any position and tensor",
-        statement=(
-            f"Eq. 27 uses the first column of the direction cosines: it equals the general formula "
-            f"with r along the first inertial axis (to {ROUNDING:g}), and by the end of the "
-            f"manoeuvre, {np.degrees(angle):.1f} deg further on, it is off by {100 * off:.0f} % "
-            f"for a sample attitude"
-        ),
+        same < ROUNDING and off > 0.01,
+        f"wrong by {100 * off:.0f} % after {duration:g} s",
+        "3 mu / r^5 r x J r, for any position and tensor",
+        f"Eq. 27 uses the first column of the direction cosines: it equals the general formula "
+        f"with r along the first inertial axis (to {ROUNDING:g}), and by the end of the "
+        f"manoeuvre, {np.degrees(angle):.1f} deg further on, it is off by {100 * off:.0f} % "
+        f"for a sample attitude",
     )
 
 
@@ -251,13 +224,11 @@ def mean_motion(grounds: Grounds) -> Proof:
     motion = np.sqrt(given.gravity.mu / a**3)
     torque = given.gravity.mu / a**3
     return Proof(
-        holds=np.isclose(motion**2, torque) and not np.isclose(motion, torque, rtol=0.5),
-        as_printed=f"mu / r^3 = {torque:.3e} 1/s^2 approximated by {motion:.3e} 1/s",
-        as_corrected=f"by its square, {motion**2:.3e} 1/s^2",
-        statement=(
-            "On a circular orbit mu / r^3 equals the squared mean motion; the mean motion has "
-            "another unit"
-        ),
+        np.isclose(motion**2, torque) and not np.isclose(motion, torque, rtol=0.5),
+        f"mu / r^3 = {torque:.3e} 1/s^2 approximated by {motion:.3e} 1/s",
+        f"by its square, {motion**2:.3e} 1/s^2",
+        "On a circular orbit mu / r^3 equals the squared mean motion; the mean motion has "
+        "another unit",
     )
 
 
@@ -272,12 +243,10 @@ def guidance_share(grounds: Grounds) -> Proof:
     shares = 100.0 * guidance / total
     printed = grounds.ledger.value("section-vi-c/guidance-share-of-run-time/min")
     return Proof(
-        holds=shares.min() > printed.value + printed.half_unit,
-        as_printed=f"{printed.value:g} %",
-        as_corrected=f"{shares.min():.1f} %",
-        statement=(
-            f"Guidance over total time in Table 4 lies between {shares.min():.1f} and "
-            f"{shares.max():.1f} %"
-        ),
+        shares.min() > printed.value + printed.half_unit,
+        f"{printed.value:g} %",
+        f"{shares.min():.1f} %",
+        f"Guidance over total time in Table 4 lies between {shares.min():.1f} and "
+        f"{shares.max():.1f} %",
         correct=float(shares.min()),
     )
