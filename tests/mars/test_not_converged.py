@@ -1,15 +1,17 @@
 """A run that overflows: a row that says so, and nothing that rests on it."""
 
 import copy
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from smallsat.drawing.style import apply_style
 from smallsat.results import read_table
+from smallsat.step import Step
 from smallsat.studies.mars.evidence import claims, errata
 from smallsat.studies.mars.figures.responses import response_data, response_figure
-from smallsat.studies.mars.steps import _check, _simulate
+from smallsat.workflow.run_step import run_step
 
 
 @pytest.fixture(scope="module")
@@ -23,10 +25,12 @@ def short(section):
 
 
 @pytest.fixture(scope="module")
-def results(tmp_path_factory, short):
+def results(tmp_path_factory, short, root):
     folder = tmp_path_factory.mktemp("results")
-    _simulate(short, folder)
-    _check(short | {"durations_s": short["durations_s"] | {"response": 30.0}}, folder)
+    step = Step(short, folder, root / "data/published/mars")
+    run_step("mars", "simulation", step)
+    shorter = short | {"durations_s": short["durations_s"] | {"response": 30.0}}
+    run_step("mars", "independent_check", replace(step, section=shorter))
     return folder
 
 

@@ -37,8 +37,8 @@ READERS = {
     "racing_variants",
     "racing_checks",
     "racing_dynamic_programming",
-    "racing_random_courses_0",
-    "racing_random_courses_1",
+    "racing_random_courses_1_of_2",
+    "racing_random_courses_2_of_2",
     "racing_observations",
     "racing_verdicts",
 }

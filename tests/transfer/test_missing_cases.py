@@ -1,7 +1,7 @@
 """Where nothing converges: rows that say so, and claims, proofs and figures that bear it."""
 
-import argparse
 import copy
+from dataclasses import replace
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -11,13 +11,15 @@ import pytest
 from smallsat.config import read_yaml
 from smallsat.evidence.claims import judge_claims
 from smallsat.evidence.errata import prove_errata
-from smallsat.studies.transfer import observe, solve
+from smallsat.step import Step
 from smallsat.studies.transfer.figures.cases import control_figure, states_figure
 from smallsat.studies.transfer.methods import experiments, extremals
 from smallsat.studies.transfer.methods.continuation import ContinuationError
 from smallsat.studies.transfer.methods.indirect import ConvergenceError
 from smallsat.studies.transfer.model.problem import TransferProblem
 from smallsat.studies.transfer.model.trajectory import ControlHistory, boundary_error, fly
+from smallsat.studies.transfer.steps import observations
+from smallsat.workflow.run_step import run_step
 
 # Claims and proofs that rest on nothing but what is printed, or on the equations.
 FROM_PRINT_ALONE = {
@@ -48,17 +50,14 @@ def results(section, root, tmp_path_factory, grounds):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(extremals, "minimum_time", no_continuation)
         patch.setattr(extremals, "solve_extremal", no_shooting)
-        common = {"config": section, "results": folder}
-        for name in ("indirect", "converged", "continuous"):
-            solve._experiment(argparse.Namespace(command=name, **common))
-        solve._multistart(argparse.Namespace(**common))
-        solve._collocation(argparse.Namespace(**common))
-        for intervals in (1, 2):
-            solve._as_published(argparse.Namespace(intervals=intervals, **common))
-        values = root / "data/published/values.csv"
-        observe._gather(argparse.Namespace(results=folder, intervals=[1, 2], ledger=values))
-        observe._observe(argparse.Namespace(results=folder, published=root / "data/published"))
         published = root / "data/published/transfer"
+        step = Step(section, folder, published)
+        for part in ("indirect", "converged", "continuous"):
+            run_step("transfer", "experiment", replace(step, part=part))
+        for part in ("1", "2"):
+            run_step("transfer", "as_published", replace(step, part=part))
+        for name in ("multistart", "collocation", "gather", "observations"):
+            run_step("transfer", name, step)
         given = grounds("transfer", {"transfer": section}, folder)
         claims = judge_claims(read_yaml(published / "claims.yaml"), given, "claims.yaml")
         errata = prove_errata(read_yaml(published / "errata.yaml"), given, "errata.yaml")
@@ -147,5 +146,5 @@ def test_a_slower_extremal_is_not_taken(config, monkeypatch):
 
 def test_experiments_know_their_own_names():
     """Every experiment that the observations ask for is one."""
-    for name in observe.OUR_EXPERIMENTS:
+    for name in observations.OURS:
         assert name == "collocation" or hasattr(experiments, name)

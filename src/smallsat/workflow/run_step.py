@@ -22,9 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Run the step; each table goes into the folder of the study's results."""
-    module = import_module(f"smallsat.studies.{arguments.study}.steps.{arguments.step}")
-    run: Callable[[Step], Tables] = module.run
+    """Run the step that the arguments name."""
     step = Step(
         arguments.config,
         arguments.results,
@@ -32,5 +30,11 @@ def main(arguments: argparse.Namespace) -> None:
         arguments.part,
         Shard.parse(arguments.shard),
     )
-    for name, table in run(step).items():
-        write_table(table, step.results / name)
+    run_step(arguments.study, arguments.step, step)
+
+
+def run_step(study: str, name: str, step: Step) -> None:
+    """Run a step; each of its tables goes into the folder of the study's results."""
+    run: Callable[[Step], Tables] = import_module(f"smallsat.studies.{study}.steps.{name}").run
+    for file, table in run(step).items():
+        write_table(table, step.results / file)
