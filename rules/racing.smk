@@ -88,6 +88,7 @@ step(
         "checks-not-converged.csv",
         "dynamic-programming-not-converged.csv",
     ],
+    published=["values.csv"],
     makes=["races.csv", "rings.csv", "random-courses.csv", "observations.csv", "not-converged.csv"],
     clock=["timings.csv"],
 )

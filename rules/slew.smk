@@ -1,6 +1,11 @@
 # Slew: torque-optimal turns of a CubeSat with degraded reaction wheels.
 
-step("slew", "flights", makes=["flights.parquet", "orbit.csv", "environment.csv"])
+step(
+    "slew",
+    "flights",
+    published=["values.csv"],
+    makes=["flights.parquet", "orbit.csv", "environment.csv"],
+)
 step("slew", "search", makes=["controllers.csv"], published=["values.csv"])
 step(
     "slew",
@@ -58,6 +63,7 @@ step(
         "degradation-not-converged.csv",
         "tracking-not-converged.csv",
     ],
+    published=["values.csv"],
     makes=["observations.csv", "not-converged.csv"],
     clock=["timings.csv"],
 )

@@ -164,9 +164,8 @@ def test_a_race_without_a_solution_is_a_row(weak):
 
 def test_observations_and_scores_of_a_missing_race(weak, ledger):
     """Not a number, and said why; no place among the others."""
-    found = [
-        one for one in observations(weak.frames()["races"]) if one.id.endswith("scenario-1-eeny")
-    ]
+    every = observations(weak.frames()["races"], ledger("racing"))
+    found = [one for one in every if one.id.endswith("scenario-1-eeny")]
     assert found
     assert all(np.isnan(one.computed) and one.note.startswith("not converged") for one in found)
     printed = printed_scores(ledger("racing"))

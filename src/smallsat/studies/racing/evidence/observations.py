@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from smallsat.evidence.ledger import Ledger
 from smallsat.evidence.observation import Observation
 from smallsat.studies.racing.methods.races import ANYWHERE, AS_PUBLISHED, GREEDY, WHOLE
 
@@ -17,16 +18,12 @@ QUANTITIES = {
     "ring-accuracy": "accuracy_m",
     "minimum-possible-cost": "minimum_cost_s",
 }
-# Section V: thrusts of commercial thrusters, N, and the mass of a CubeSat, kg.
-THRUSTERS_N, MASS_KG = {"min": 10e-6, "max": 500e-6}, 1.0
-MILLI = 1e-3
-# Largest acceleration of the document's CubeSats, m/s^2.
-LARGEST = 0.5
+MICRO, MILLI = 1e-6, 1e-3
 
 
-def observations(races: pd.DataFrame) -> list[Observation]:
-    """All observations, from the table of races."""
-    return [*_races(races), *_section_v()]
+def observations(races: pd.DataFrame, ledger: Ledger) -> list[Observation]:
+    """All observations, from the table of races and what Section V starts from."""
+    return [*_races(races), *_section_v(ledger)]
 
 
 def _races(races: pd.DataFrame) -> Iterator[Observation]:
@@ -49,13 +46,18 @@ def _races(races: pd.DataFrame) -> Iterator[Observation]:
                 )
 
 
-def _section_v() -> Iterator[Observation]:
-    where = "racing/section-v/equivalent-acceleration-of-commercial-thrusters/1-kg-1u"
-    for name, thrust in THRUSTERS_N.items():
-        yield Observation(f"{where}/{name}", thrust / MASS_KG / MILLI)
+def _section_v(ledger: Ledger) -> Iterator[Observation]:
+    """Accelerations by commercial thrusters, and how far they are below the document's own."""
+    mass = ledger.value("section-v/mass-of-a-standard-1u-cubesat").value
+    for name in ("min", "max"):
+        thrust = ledger.value(f"section-v/thrust-of-commercial-cubesat-thrusters/cited-3/{name}")
+        acceleration = MICRO * thrust.value / mass
+        where = "racing/section-v/equivalent-acceleration-of-commercial-thrusters/1-kg-1u"
+        yield Observation(f"{where}/{name}", acceleration / MILLI)
+    largest = ledger.value("section-v/accelerations-used-in-this-project/max").value
     yield Observation(
         "racing/section-v/factor-by-which-commercial-thrust-is-below-this-project",
-        LARGEST / (THRUSTERS_N["max"] / MASS_KG),
+        largest / acceleration,
     )
 
 

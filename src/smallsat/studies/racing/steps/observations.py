@@ -2,6 +2,7 @@
 
 import pandas as pd
 
+from smallsat.evidence.ledger import Ledger
 from smallsat.evidence.not_converged import joined
 from smallsat.evidence.observation import observations_table
 from smallsat.results import read_table
@@ -17,6 +18,7 @@ def run(step: Step) -> Tables:
     shards = [f"random-courses-{shard}" for shard in step.shard.all(step.shard.count)]
     courses = pd.concat([_read(step, shard) for shard in shards], ignore_index=True)
     races = _scenarios(step, "races")
+    ledger = Ledger.read(step.published / "values.csv")
     solving = [
         "checks",
         "dynamic-programming",
@@ -27,7 +29,7 @@ def run(step: Step) -> Tables:
         "races.csv": races,
         "rings.csv": _scenarios(step, "rings"),
         "random-courses.csv": courses.sort_values(["number", "rule"], ignore_index=True),
-        "observations.csv": observations_table(observations(races)),
+        "observations.csv": observations_table(observations(races, ledger)),
         "not-converged.csv": joined(step.results, solving),
         "timings.csv": timings(step.results),
     }

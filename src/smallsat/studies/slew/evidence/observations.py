@@ -11,6 +11,7 @@ import pandas as pd
 from smallsat.config import Config
 from smallsat.dynamics.attitude.quaternions import roll_pitch_yaw
 from smallsat.dynamics.orbits.kepler_orbits import period
+from smallsat.evidence.ledger import Ledger
 from smallsat.evidence.observation import Observation
 from smallsat.results import read_table
 from smallsat.studies.slew.methods.bound import plan_names
@@ -20,8 +21,6 @@ from smallsat.studies.slew.parameters import KM, Parameters
 
 AXES = "xyz"
 MINUTE = 60.0
-# The printed yaw error that "comparable" is measured by, deg (Section VI.B).
-COMPARABLE_DEG = 0.9
 NO_LEAST_TIME = "not converged: no least time was found"
 NO_PLAN = "not converged: there is no plan"
 RATES = ["omega_x", "omega_y", "omega_z"]
@@ -30,12 +29,16 @@ TURNS = {"quarter": "90-deg", "half": "180-deg"}
 MESHES = ("segments", "one segment")
 
 
-def observations(section: Config, given: Parameters, results: Path) -> list[Observation]:
+def observations(
+    section: Config, given: Parameters, results: Path, ledger: Ledger
+) -> list[Observation]:
     """All observations, from the study's result tables."""
+    # The yaw error that "comparable" is measured by, deg.
+    comparable = ledger.value("section-vi-b/yaw-pointing-error/180-deg-torque-optimal").value
     return [
         *_orbit(given, results),
         *_durations(given, results),
-        *_eigenaxis(given, results),
+        *_eigenaxis(given, results, comparable),
         *_torque_optimal(given, results),
         *_crossover(section, results),
     ]
@@ -84,7 +87,7 @@ def _durations(given: Parameters, results: Path) -> Iterator[Observation]:
         yield Observation(f"slew/table-3/t-max/{row['case']}", row["t_max"], note=note)
 
 
-def _eigenaxis(given: Parameters, results: Path) -> Iterator[Observation]:
+def _eigenaxis(given: Parameters, results: Path, comparable: float) -> Iterator[Observation]:
     flights = read_table(results / "flights.parquet")
     for case, turn in TURNS.items():
         flown = flights[flights["flight"] == f"eigenaxis {case}"]
@@ -103,7 +106,7 @@ def _eigenaxis(given: Parameters, results: Path) -> Iterator[Observation]:
         settled = flights[flights["flight"] == f"eigenaxis {case}, no time limit"]
         yield Observation(
             f"slew/section-vi-b/eigenaxis-time-for-comparable-yaw-and-rates/{turn}-no-time-limit",
-            time := comparable_time(settled, target_yaw(given, case)),
+            time := comparable_time(settled, target_yaw(given, case), comparable),
             note="not within the printed error when the flight ends" if np.isnan(time) else "",
         )
 
@@ -118,13 +121,13 @@ def short_of(angle: float, target: float) -> float:
     return min((target + turn - angle for turn in (0.0, -360.0, 360.0)), key=abs)
 
 
-def comparable_time(flown: pd.DataFrame, target: float) -> float:
-    """Time, s, from which the yaw stays within the printed error of the 180 deg run.
+def comparable_time(flown: pd.DataFrame, target: float, within: float) -> float:
+    """Time, s, from which the yaw stays within an error of its target, all in deg.
 
     Not a number where it does not within the flight.
     """
     error = np.array([abs(short_of(yaw, target)) for yaw in angles_deg(flown)[:, 2]])
-    late = np.flatnonzero(error > COMPARABLE_DEG)
+    late = np.flatnonzero(error > within)
     since = late[-1] + 1 if len(late) else 0
     return float(flown["time_s"].to_numpy()[since]) if since < len(flown) else nan
 

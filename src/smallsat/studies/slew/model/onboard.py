@@ -10,8 +10,6 @@ from smallsat.dynamics.compiled import compiled
 from smallsat.dynamics.orbits.kepler_orbits import acceleration, fly
 from smallsat.studies.slew.parameters import KM, START, Parameters
 
-# Table 2 prints the start of its propagation; the printed end follows from these rounded numbers.
-PRINTED_START_KM = (6744.1, -1.652e-12, 11.77, 1.88e-15, 7.707, 8.237e-19)
 # The highest zonal harmonic that the propagator knows.
 GRAVITY_ORDER = 2
 STEPS_S = (4.0, 2.0, 1.0, 0.5, 0.2)
@@ -35,11 +33,17 @@ def _rate(y, mu, radius, j2):
     return np.array([y[3], y[4], y[5], a[0], a[1], a[2]])
 
 
-def final_orbit_states(section: Config, given: Parameters) -> pd.DataFrame:
-    """State at the end of the manoeuvre, km and km/s, by start, gravity and integrator."""
+def final_orbit_states(
+    section: Config, given: Parameters, printed_start: np.ndarray
+) -> pd.DataFrame:
+    """State at the end of the manoeuvre, km and km/s, by start, gravity and integrator.
+
+    ``printed_start`` is the start of its propagation that the document prints, (6,), m and m/s; the
+    printed end follows from these rounded numbers.
+    """
     starts = {
         "the orbital elements": np.concatenate(given.state),
-        "the printed initial state": KM * np.array(PRINTED_START_KM),
+        "the printed initial state": printed_start,
     }
     step = section["onboard"]["step_s"]
     steps = round(given.duration / step)

@@ -1,17 +1,23 @@
 """Eigenaxis turns, the on-board propagation and the environment's torques."""
 
+import numpy as np
+
+from smallsat.evidence.ledger import Ledger
 from smallsat.step import Step, Tables
 from smallsat.studies.slew.methods.environment_study import torque_table
 from smallsat.studies.slew.methods.flights import eigenaxis_flights
 from smallsat.studies.slew.model.onboard import final_orbit_states
-from smallsat.studies.slew.parameters import parameters
+from smallsat.studies.slew.parameters import KM, parameters
 
 
 def run(step: Step) -> Tables:
     """Simulate what needs no plan."""
     section, given = step.section, parameters(step.section)
+    ledger = Ledger.read(step.published / "values.csv")
+    position, velocity = (ledger.values(f"table-2/{name}") for name in ("r-0", "v-0"))
+    start = KM * np.array([*position, *velocity], dtype=float)
     return {
         "flights.parquet": eigenaxis_flights(section, given),
-        "orbit.csv": final_orbit_states(section, given),
+        "orbit.csv": final_orbit_states(section, given, start),
         "environment.csv": torque_table(section, given),
     }

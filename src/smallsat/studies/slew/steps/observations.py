@@ -1,5 +1,6 @@
 """What is computed for every published value of the slews."""
 
+from smallsat.evidence.ledger import Ledger
 from smallsat.evidence.not_converged import joined
 from smallsat.evidence.observation import observations_table
 from smallsat.step import Step, Tables
@@ -12,9 +13,10 @@ SOLVING = ("minimum-times", "plans", "trade-off", "degradation", "tracking")
 
 def run(step: Step) -> Tables:
     """Observe, list what did not converge, and find our seconds for the printed ones."""
-    given = parameters(step.section)
+    section, given, results = step.section, parameters(step.section), step.results
+    ledger = Ledger.read(step.published / "values.csv")
     return {
-        "observations.csv": observations_table(observations(step.section, given, step.results)),
-        "not-converged.csv": joined(step.results, SOLVING),
-        "timings.csv": timings(given, step.results),
+        "observations.csv": observations_table(observations(section, given, results, ledger)),
+        "not-converged.csv": joined(results, SOLVING),
+        "timings.csv": timings(given, results),
     }
