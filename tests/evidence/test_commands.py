@@ -70,6 +70,7 @@ def test_an_erratum_holds_if_its_proof_does(sign, holds):
         ({"correct": "(1/36)/5"}, 1 / 181, False, "(1/36)/5"),
         # Words are the proof's where the entry has none, and the entry's where the proof has none.
         ({}, "N = 4", True, "N = 4"),
+        ({"correct": "N = 5"}, "N = 4", False, "N = 5"),
         ({"correct": "u' R u"}, "", True, "u' R u"),
     ],
 )
@@ -80,7 +81,7 @@ def test_a_correction_must_be_what_the_proof_computes(entry, computed, holds, sh
     found = prove_errata(entries, given(sign=-1, correct=computed), "errata.yaml")
     (row,) = found.itertuples()
     assert (row.holds, row.correct) == (holds, shown)
-    assert ("is not what the proof computes" in row.statement) is not holds
+    assert ("is not what the proof finds" in row.statement) is not holds
 
 
 def test_a_correction_without_its_number_is_named():

@@ -13,17 +13,10 @@ from smallsat.evidence.grounds import Grounds
 from smallsat.evidence.printed import parse_printed
 from smallsat.evidence.reference import resolve
 
-ERRATA_COLUMNS = (
-    "key",
-    "locator",
-    "printed",
-    "correct",
-    "explanation",
-    "as_printed",
-    "as_corrected",
-    "statement",
-    "holds",
-)
+# What an entry says of an erratum, and what its proof finds.
+ENTRY_COLUMNS = ("key", "locator", "printed", "correct", "explanation")
+PROOF_COLUMNS = ("as_printed", "as_corrected", "statement", "holds")
+ERRATA_COLUMNS = (*ENTRY_COLUMNS, *PROOF_COLUMNS)
 _NUMBER = re.compile(r"[+-]?\d+(\.\d+)?(e[+-]?\d+)?", re.IGNORECASE)
 
 
@@ -40,8 +33,8 @@ class Proof:
     statement
         One sentence that a reader can check: what was computed, and what it shows.
     correct
-        What would have to be printed: a number in the printed unit, to which the entry's own
-        ``correct`` is held, or the words for an entry that has none. Empty where a formula or a
+        What would have to be printed: a number in the printed unit, or words. The entry's own
+        ``correct`` is held to it; an entry that has none gets the words. Empty where a formula or a
         sentence is corrected, which the entry alone can say.
     """
 
@@ -77,30 +70,30 @@ def prove_errata(entries: list[dict[str, Any]], grounds: Grounds, path: str) -> 
         except LookupError:
             # A what-if run may leave out the case that a proof needs.
             proof = Proof(False, "", "", "not computed: this run leaves out a case that it needs")
-        row = {name: entry.get(name, "") for name in ERRATA_COLUMNS[:5]}
-        row |= {
-            "as_printed": proof.as_printed,
-            "as_corrected": proof.as_corrected,
-            "statement": proof.statement,
-            "holds": bool(proof.holds),
-        }
-        if isinstance(proof.correct, str):
-            row["correct"] = entry.get("correct", proof.correct)
+        row = {name: entry.get(name, "") for name in ENTRY_COLUMNS}
+        row |= {name: getattr(proof, name) for name in PROOF_COLUMNS} | {"holds": bool(proof.holds)}
+        if "correct" not in entry and isinstance(proof.correct, str):
+            row["correct"] = proof.correct
         elif not _corrects_to(row["correct"], proof.correct, f"{path}: '{entry['key']}'"):
             row["holds"] = False
             row["statement"] = (
-                f"the correction '{row['correct']}' is not what the proof computes, "
-                f"{proof.correct:.7g}. {proof.statement}"
+                f"the correction '{row['correct']}' is not what the proof finds, "
+                f"'{proof.correct}'. {proof.statement}"
             )
         rows.append(row)
     return pd.DataFrame(rows, columns=list(ERRATA_COLUMNS))
 
 
-def _corrects_to(correct: float | str, computed: float, where: str) -> bool:
-    """Whether a correction, or the first number in it, has the digits of the computed one."""
+def _corrects_to(correct: float | str, found: float | str, where: str) -> bool:
+    """Whether a correction is what a proof found: the same words, or a number to its own digits.
+
+    In a correction with more words than a number the first number counts.
+    """
     text = str(correct)
+    if isinstance(found, str):
+        return found in ("", text)
     first = _NUMBER.search(text)
     number = parse_printed(text) or (parse_printed(first[0]) if first else None)
     if number is None:
         raise InputError(f"{where}: 'correct' is {text!r}; needed: the number that its proof finds")
-    return number.matches(computed)
+    return number.matches(found)

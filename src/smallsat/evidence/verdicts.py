@@ -10,6 +10,7 @@ import pandas as pd
 from smallsat.config import Config
 from smallsat.errors import InputError
 from smallsat.evidence.bindings import agrees, binding_name, bound_value
+from smallsat.evidence.ledger import VALUE_COLUMNS
 from smallsat.evidence.patterns import match_entries
 from smallsat.evidence.printed import LOST, Printed, parse_printed
 
@@ -23,22 +24,10 @@ VERDICTS = (
     "mismatch",
 )
 PENDING = "pending"
-VERDICT_COLUMNS = (
-    "id",
-    "document",
-    "locator",
-    "quantity",
-    "case",
-    "component",
-    "printed",
-    "computed",
-    "unit",
-    "difference",
-    "tolerance",
-    "verdict",
-    "reason",
-)
+FOUND = ("difference", "tolerance", "verdict", "reason")
+VERDICT_COLUMNS = (*VALUE_COLUMNS[:7], "computed", "unit", *FOUND)
 TEXT_COLUMNS = ("case", "component", "printed", "unit")
+# Kinds of rules; each rule is of one of them.
 RULE_KINDS = (
     "exact",
     "tolerance",
