@@ -313,18 +313,16 @@ def torque_all_the_time(grounds: Grounds) -> Judgement:
 def gradient_dominates(grounds: Grounds) -> Judgement:
     """From 400 km on the gravity gradient is the larger torque, over the band of assumptions."""
     section = grounds.config["slew"]
+    name = "section-v-c/altitude-above-which-gravity-gradient-dominates/environment-torque-study"
+    least = grounds.ledger.value(name).value
     table = grounds.table("environment.csv")
-    above = table[table["altitude_km"] >= 400.0]
-    printed = panels(section)[0, 5]
-    lever = table[np.isclose(table["offset_mm"], 1e3 * abs(printed))]
-    if not len(above) or not len(lever):
-        raise LookupError("no altitude from 400 km on, or not the printed lever")
-    everywhere = bool(
-        (lever["gravity_gradient_N_m"] > lever["drag_N_m"])[
-            np.isclose(lever["density_factor"], 1.0)
-        ].all()
-    )
-    share = float((above["gravity_gradient_N_m"] > above["drag_N_m"]).mean())
+    larger = table["gravity_gradient_N_m"] > table["drag_N_m"]
+    above = larger[table["altitude_km"] >= least]
+    lever = np.isclose(table["offset_mm"], 1e3 * abs(panels(section)[0, 5]))
+    if not len(above) or not lever.any():
+        raise LookupError(f"no altitude from {least:g} km on, or not the printed lever")
+    everywhere = larger[lever & np.isclose(table["density_factor"], 1.0)].all()
+    share = float(above.mean())
     largest = max(section["environment"]["offsets_mm"])
     crossing = crossover_km(table, largest)
     worst = crossover_km(table, largest, max(section["environment"]["density_factors"]))
@@ -332,7 +330,8 @@ def gradient_dominates(grounds: Grounds) -> Judgement:
         "holds" if share == 1.0 else "undecided",
         f"with the printed lever it {'dominates' if everywhere else 'does not dominate'} at every "
         f"altitude studied; with {largest:g} mm the crossover is at {_km(crossing)}, at "
-        f"{_km(worst)} in the densest air assumed; {100 * share:.0f} % of the cases from 400 km on",
+        f"{_km(worst)} in the densest air assumed; {100 * share:.0f} % of the cases from "
+        f"{least:g} km on",
     )
 
 
