@@ -1,10 +1,11 @@
 """The rendezvous study's closed loop against a plain Python loop around OSQP, in one run.
 
-The plain loop flies the V-bar manoeuvre of the configured law; the compiled loop flies many from
-random starts, in linear motion, in the full field with impulses' worth of burns and drag, and with
-all disturbances. Processor seconds, since the machine may do other things too.
+The plain loop, which is that of the tests, simulates the V-bar manoeuvre of the configured law; the
+compiled loop simulates many from random starts, in linear motion, in the full field with impulses
+and drag, and with all disturbances. Processor seconds, since the machine may do other things too.
 """
 
+import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -13,19 +14,22 @@ import numpy as np
 
 from smallsat.config import read_yaml
 from smallsat.statistics.random_streams import stream
-from smallsat.studies.rendezvous.methods import qp_solvers as back_ends
+from smallsat.studies.rendezvous.methods import qp_solvers
 from smallsat.studies.rendezvous.monte_carlo.initial_states import (
     IN_PLANE,
     Distribution,
     initial_states,
 )
 from smallsat.studies.rendezvous.parameters import law, start_state
-from smallsat.studies.rendezvous.simulation import reference_loop
-from smallsat.studies.rendezvous.simulation.closed_loop import Manoeuvres, manoeuvres
-from smallsat.studies.rendezvous.simulation.disturbances import disturbances
-from smallsat.studies.rendezvous.simulation.disturbed_loop import disturbed_manoeuvres
+from smallsat.studies.rendezvous.simulation.closed_loop import Manoeuvres, simulate
+from smallsat.studies.rendezvous.simulation.disturbances import disturbed_motion
 
-CONFIG = Path(__file__).parents[1] / "config/default/rendezvous.yaml"
+ROOT = Path(__file__).parents[1]
+sys.path.insert(0, str(ROOT / "tests/rendezvous"))
+
+import reference_loop  # noqa: E402
+
+CONFIG = ROOT / "config/default/rendezvous.yaml"
 MANOEUVRES = 200
 NOISY = 40
 DOUBLINGS = (125, 250, 500)
@@ -43,23 +47,24 @@ def measure() -> dict[str, float]:
     )
 
     def linear(count: int) -> Manoeuvres:
-        return manoeuvres([given], states[:count])
+        return simulate([given], states[:count])
 
     def disturbed(noise: bool) -> Callable[[int], Manoeuvres]:
-        acting = disturbances(section, given, thrust_error=noise, measurement_error=noise)
-        return lambda count: disturbed_manoeuvres(
-            given, states[:count], acting, [stream(SEED, sample) for sample in range(count)]
-        )[0]
+        motion = disturbed_motion(section, given, thrust_error=noise, measurement_error=noise)
+        streams = [stream(SEED, sample) for sample in range(MANOEUVRES)]
+        return lambda count: simulate(
+            [given], states[:count], motion=motion, generators=streams[:count]
+        )
 
     found = {}
-    for name, fly in (
+    for name, run in (
         ("linear", linear),
         ("field_8x8", disturbed(False)),
         ("disturbed_8x8", disturbed(True)),
     ):
-        fly(1)  # compiles
+        run(1)  # compiles
         count = NOISY if name == "disturbed_8x8" else MANOEUVRES
-        seconds, flown = _timed(fly, count)
+        seconds, flown = _timed(run, count)
         found[f"{name}_manoeuvres_per_s"] = count / seconds
         found[f"{name}_us_per_program"] = 1e6 * seconds / flown.steps.sum()
     for count in DOUBLINGS:
@@ -68,17 +73,17 @@ def measure() -> dict[str, float]:
 
     solving = 0.0
 
-    def solve(program: back_ends.SparseProgram) -> back_ends.Answer:
+    def solve(program: qp_solvers.SparseProgram) -> qp_solvers.Answer:
         nonlocal solving
-        answer = back_ends.osqp(program, OSQP_TOLERANCE)
+        answer = qp_solvers.osqp(program, OSQP_TOLERANCE)
         solving += answer.seconds
         return answer
 
     begin = time.process_time()
-    reference_loop.fly(given, start_state(section), solve)
+    reference_loop.simulate(given, start_state(section), solve)
     plain = time.process_time() - begin
     own, _ = _timed(
-        lambda count: manoeuvres([given], np.tile(start_state(section), (count, 1))), 20
+        lambda count: simulate([given], np.tile(start_state(section), (count, 1))), REPETITIONS
     )
     return found | {
         "plain_osqp_manoeuvres_per_s": 1.0 / plain,
@@ -88,9 +93,9 @@ def measure() -> dict[str, float]:
     }
 
 
-def _timed(fly: Callable[[int], Manoeuvres], count: int) -> tuple[float, Manoeuvres]:
+def _timed(run: Callable[[int], Manoeuvres], count: int) -> tuple[float, Manoeuvres]:
     begin = time.process_time()
-    flown = fly(count)
+    flown = run(count)
     return time.process_time() - begin, flown
 
 

@@ -12,12 +12,11 @@ import pandas as pd
 
 from smallsat.config import read_yaml
 from smallsat.statistics.random_streams import stream
+from smallsat.studies.rendezvous.model.columns import STATE
 from smallsat.studies.rendezvous.monte_carlo.cases import base
 from smallsat.studies.rendezvous.monte_carlo.initial_states import states_table
-from smallsat.studies.rendezvous.monte_carlo.tables import STATE
-from smallsat.studies.rendezvous.simulation.closed_loop import manoeuvres
-from smallsat.studies.rendezvous.simulation.disturbances import disturbances
-from smallsat.studies.rendezvous.simulation.disturbed_loop import disturbed_manoeuvres
+from smallsat.studies.rendezvous.simulation.closed_loop import simulate
+from smallsat.studies.rendezvous.simulation.disturbances import disturbed_motion
 
 ROOT = Path(__file__).parents[1]
 SAMPLES = (125, 250, 500, 1000)
@@ -44,12 +43,12 @@ def measure() -> dict[str, float]:
     """Processor seconds of the baseline from ever more states, and how linear they are."""
     section = read_yaml(ROOT / "config/default/rendezvous.yaml")["rendezvous"]
     law = base(section)
-    states = states_table(section, max(SAMPLES), section["studies"]["seed"])[list(STATE)].to_numpy()
-    manoeuvres([law], states[:1])  # compiles
+    states = states_table(section, max(SAMPLES), section["studies"]["seed"])[STATE].to_numpy()
+    simulate([law], states[:1])  # compiles
     found, steps = {}, 0
     for count in SAMPLES:
         began = time.process_time()
-        flown = manoeuvres([law], states[:count])
+        flown = simulate([law], states[:count])
         found[f"baseline_{count}_states_s"] = time.process_time() - began
         steps = int(flown.steps.sum())
     last = found[f"baseline_{SAMPLES[-1]}_states_s"]
@@ -57,11 +56,11 @@ def measure() -> dict[str, float]:
         found[f"baseline_{SAMPLES[0]}_states_s"] / SAMPLES[0]
     )
     found["programs_per_s"] = steps / last
-    world = disturbances(section, law)
+    motion = disturbed_motion(section, law)
     streams = [stream(1, k) for k in range(DISTURBED + 1)]
-    disturbed_manoeuvres(law, states[:1], world, streams[-1:])
+    simulate([law], states[:1], motion=motion, generators=streams[-1:])
     began = time.process_time()
-    disturbed_manoeuvres(law, states[:DISTURBED], world, streams[:DISTURBED])
+    simulate([law], states[:DISTURBED], motion=motion, generators=streams[:DISTURBED])
     found["disturbed_manoeuvres_per_s"] = DISTURBED / (time.process_time() - began)
     found["peak_memory_MiB"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
     return found | _last_build()

@@ -2,16 +2,14 @@
 
 import numpy as np
 import pytest
+import reference_loop
 
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
-from smallsat.optimal_control.riccati_interior_point import workspace
 from smallsat.studies.rendezvous.guidance import law as guidance
-from smallsat.studies.rendezvous.guidance.phase_programs import BOUNDS, PLANES, program_room
-from smallsat.studies.rendezvous.methods import constraint_check
-from smallsat.studies.rendezvous.methods import qp_solvers as back_ends
+from smallsat.studies.rendezvous.guidance.controller import memory_for, next_control
+from smallsat.studies.rendezvous.methods import constraint_check, qp_solvers
 from smallsat.studies.rendezvous.model.prediction import transition
-from smallsat.studies.rendezvous.simulation import reference_loop
-from smallsat.studies.rendezvous.simulation.closed_loop import manoeuvres, next_control
+from smallsat.studies.rendezvous.simulation.closed_loop import simulate
 
 CASES = ["v-bar", "r-bar", "rotating"]
 
@@ -19,17 +17,17 @@ CASES = ["v-bar", "r-bar", "rotating"]
 @pytest.fixture(scope="module")
 def flown(laws, chaser):
     cases = list(laws.values())
-    return manoeuvres(cases, np.tile(chaser, (len(cases), 1)), with_steps=True)
+    return simulate(cases, np.tile(chaser, (len(cases), 1)), with_steps=True)
 
 
 @pytest.mark.parametrize("case", CASES)
 def test_plain_loop_flies_the_same(laws, chaser, case):
     """NumPy, the document's formulas and Clarabel: same steps; paths within 1 cm, 0.1 mm/s."""
-    plain = reference_loop.fly(
-        laws[case], chaser, lambda program: back_ends.clarabel(program, 1e-9)
+    plain = reference_loop.simulate(
+        laws[case], chaser, lambda program: qp_solvers.clarabel(program, 1e-9)
     )
-    compiled = manoeuvres([laws[case]], chaser, with_steps=True)
-    states = compiled.records[0].state
+    compiled = simulate([laws[case]], chaser, with_steps=True)
+    states = compiled.record(0).state
     assert plain.steps == compiled.steps[0].tolist()
     difference = np.abs(plain.states[: len(states)] - states)
     assert difference[:, :3].max() < 1e-2 and difference[:, 3:].max() < 1e-4
@@ -38,7 +36,8 @@ def test_plain_loop_flies_the_same(laws, chaser, case):
 def test_ledger_closes(flown, laws, law):
     """Each state follows from the last one, its impulse and the equations; so do the sums."""
     matrix = rate_matrix(law.mean_motion)
-    for m, steps in enumerate(flown.records):
+    for m in range(len(flown.docked)):
+        steps = flown.record(m)
         before = steps.state.copy()
         before[:, 3:] += steps.impulse
         for phase in range(3):
@@ -59,7 +58,7 @@ def test_ledger_closes(flown, laws, law):
 
 def test_delta_v_is_the_change_of_velocity(flown, law):
     """Against the equations' integral: what the velocity gains less what the motion gives it."""
-    steps = flown.records[0]
+    steps = flown.record(0)
     matrix = rate_matrix(law.mean_motion)
     gained, given = np.zeros(3), np.zeros(3)
     for k in range(len(steps.time) - 1):
@@ -75,10 +74,10 @@ def test_delta_v_is_the_change_of_velocity(flown, law):
 
 def test_results_do_not_depend_on_the_batch(law, chasers):
     """All at once, one by one and in the other order: equal to the last bit."""
-    together = manoeuvres([law], chasers)
-    backwards = manoeuvres([law], chasers[::-1])
+    together = simulate([law], chasers)
+    backwards = simulate([law], chasers[::-1])
     for m in range(len(chasers)):
-        alone = manoeuvres([law], chasers[m])
+        alone = simulate([law], chasers[m])
         for name in ("steps", "delta_v", "ends", "iterations", "softened"):
             one = getattr(alone, name)[0]
             assert np.array_equal(one, getattr(together, name)[m], equal_nan=True)
@@ -87,10 +86,10 @@ def test_results_do_not_depend_on_the_batch(law, chasers):
 
 def test_phases_flown_apart_are_those_of_the_whole(law, chaser):
     """A law that does not rotate: the mid range from where the far range ended, and so on."""
-    whole = manoeuvres([law], chaser)
+    whole = simulate([law], chaser)
     state = chaser
     for phase in range(3):
-        part = manoeuvres([law], state, phases=(phase, phase))
+        part = simulate([law], state, phases=(phase, phase))
         assert part.docked[0] and part.steps[0, phase] == whole.steps[0, phase]
         assert np.array_equal(part.ends[0, phase], whole.ends[0, phase])
         state = part.ends[0, phase]
@@ -104,7 +103,7 @@ def test_phases_end_where_the_law_says(flown, laws):
             state, time = flown.ends[m, phase], flown.end_times[m, phase]
             assert reference_loop.phase_ended(law, phase, state, time)
         # and not a step before
-        steps = flown.records[m]
+        steps = flown.record(m)
         for k in range(1, len(steps.time)):
             if steps.phase[k] == steps.phase[k - 1]:
                 ended = reference_loop.phase_ended(
@@ -114,16 +113,16 @@ def test_phases_end_where_the_law_says(flown, laws):
 
 
 def test_time_limit_ends_a_manoeuvre(law, chaser):
-    flown = manoeuvres([law.with_(time_limit=600.0)], chaser)
+    flown = simulate([law.with_(time_limit=600.0)], chaser)
     assert not flown.docked[0] and flown.steps[0].tolist() == [20, 0, 0]
     assert np.isnan(flown.ends[0, 1:]).all()
 
 
 def test_a_known_delay_is_made_up_for(law, chaser):
     """With 5 s of delay in the far range the law that knows it flies nearly the same path."""
-    free = manoeuvres([law], chaser, phases=(0, 0))
-    known = manoeuvres([law.with_(delay=5.0, delay_known=True)], chaser, phases=(0, 0))
-    unknown = manoeuvres([law.with_(delay=5.0)], chaser, phases=(0, 0))
+    free = simulate([law], chaser, phases=(0, 0))
+    known = simulate([law.with_(delay=5.0, delay_known=True)], chaser, phases=(0, 0))
+    unknown = simulate([law.with_(delay=5.0)], chaser, phases=(0, 0))
     off = [abs(x.delta_v[0, 0] - free.delta_v[0, 0]) for x in (known, unknown)]
     assert known.docked[0] and unknown.docked[0]
     assert off[0] < off[1]
@@ -132,27 +131,27 @@ def test_a_known_delay_is_made_up_for(law, chaser):
 def test_an_unsolved_program_takes_the_last_plan(law, chaser):
     """A state that is no number cannot be solved for: the plan goes on, then nothing is done."""
     record = guidance.settings([law])[0]
-    room, work = program_room(30), workspace(30, PLANES, BOUNDS)
-    plan, place, command = np.zeros((30, 3)), np.zeros(2, np.int64), np.zeros(3)
+    memory, command = memory_for(30), np.zeros(3)
     lost = np.full(6, np.nan)
-    status, *_ = next_control(record, 0, lost, 0.0, room, work, plan, place, command)
+    status, *_ = next_control(record, 0, lost, 0.0, memory, command)
     assert status != 0 and not command.any()
-    status, *_ = next_control(record, 0, chaser, 0.0, room, work, plan, place, command)
-    assert status == 0 and np.array_equal(command, plan[0]) and command.any()
-    kept = plan.copy()
+    status, *_ = next_control(record, 0, chaser, 0.0, memory, command)
+    assert status == 0 and np.array_equal(command, memory.plan[0]) and command.any()
+    kept = memory.plan.copy()
     for i in range(1, 30):
-        status, *_ = next_control(record, 0, lost, 0.0, room, work, plan, place, command)
+        status, *_ = next_control(record, 0, lost, 0.0, memory, command)
         assert status != 0 and np.array_equal(command, kept[i])
-    next_control(record, 0, lost, 0.0, room, work, plan, place, command)
+    next_control(record, 0, lost, 0.0, memory, command)
     assert not command.any()
 
 
 def test_constraints_hold_where_no_row_gave_way(law, chasers):
     """Linear motion: at samples no constraint is violated but where the program says so."""
     scale = guidance.settings([law])[0]["scales"]
-    flown = manoeuvres([law], chasers, with_steps=True)
+    flown = simulate([law], chasers, with_steps=True)
     checked = 0
-    for m, steps in enumerate(flown.records):
+    for m in range(len(flown.docked)):
+        steps = flown.record(m)
         for k in range(len(steps.time) - 1):
             if steps.softened[k] or steps.status[k] or steps.phase[k + 1] != steps.phase[k]:
                 continue
@@ -166,7 +165,7 @@ def test_constraints_hold_where_no_row_gave_way(law, chasers):
 
 def test_constraints_are_also_looked_at_between_samples(law, chaser):
     """What the programs cannot see: the keep-out zone may be touched between samples."""
-    table = constraint_check.follow(law, constraint_check.LinearMotion(law.mean_motion, chaser))
+    table = constraint_check.follow(law, chaser)
     worst = table.groupby(["phase", "constraint", "place"])["violation"].max()
     far = worst["far", "keep out"]
     assert far["sample"] <= 1e-3
@@ -176,8 +175,8 @@ def test_constraints_are_also_looked_at_between_samples(law, chaser):
 
 def test_linear_motion_is_the_loop_s(law, chaser):
     """The checked path is the compiled loop's: same number of steps."""
-    table = constraint_check.follow(law, constraint_check.LinearMotion(law.mean_motion, chaser))
-    flown = manoeuvres([law], chaser)
+    table = constraint_check.follow(law, chaser)
+    flown = simulate([law], chaser)
     samples = table[(table["place"] == "sample")].groupby(["phase", "constraint"]).size()
     assert samples["far", "keep out"] == flown.steps[0, 0]
     assert samples["final", "speed"] == flown.steps[0, 2]

@@ -13,8 +13,8 @@ import pytest
 
 from smallsat.strict_yaml import read_yaml
 from smallsat.studies.rendezvous.evidence import claims, errata
+from smallsat.studies.rendezvous.model.columns import CHANGE, STATE
 from smallsat.studies.rendezvous.parameters import law
-from smallsat.studies.rendezvous.simulation.flights import CHANGE, STATE
 
 CONFIG = Path(__file__).parents[2] / "config/default/rendezvous.yaml"
 

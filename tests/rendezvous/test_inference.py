@@ -9,16 +9,16 @@ import pytest
 
 from smallsat.strict_yaml import read_yaml
 from smallsat.studies.rendezvous.inference.search import (
-    fly_sets,
     misfits,
     parameter_names,
     printed_steps,
     residuals,
     search,
+    simulate_sets,
     with_values,
 )
 from smallsat.studies.rendezvous.inference.summary import acceptable, identified, profiles
-from smallsat.studies.rendezvous.simulation.delta_v import READINGS, in_turned_axes, summed
+from smallsat.studies.rendezvous.simulation.delta_v import READINGS, summed
 
 CONFIG = Path(__file__).parents[2] / "config/default/rendezvous.yaml"
 
@@ -30,7 +30,7 @@ def section():
 
 @pytest.fixture(scope="module")
 def flown(section):
-    return fly_sets([section])
+    return simulate_sets([section])
 
 
 def test_sums_of_delta_v():
@@ -43,6 +43,13 @@ def test_sums_of_delta_v():
     assert summed(change, "resultant") == pytest.approx(3 * np.sqrt(3) + np.sqrt(2) + 8)
     with pytest.raises(ValueError, match="no reading"):
         summed(change, "3-norm")
+
+
+def in_turned_axes(changes: np.ndarray, angles: np.ndarray) -> np.ndarray:
+    """Velocity changes, (K, 3), in axes turned about the orbit's normal by an angle each, rad."""
+    c, s = np.cos(angles), np.sin(angles)
+    x, y, z = np.asarray(changes, dtype=float).reshape(-1, 3).T
+    return np.column_stack([c * x + s * y, c * y - s * x, z])
 
 
 def test_sums_are_ordered_and_turned_axes_keep_lengths():
@@ -128,7 +135,7 @@ def test_a_search_can_be_repeated_and_stays_within_its_bounds(small, ledger):
     for name in parameter_names(small):
         low, high = small["inference"]["bounds"][name]
         assert first[name].between(low - 1e-9, high + 1e-9).all()
-    own = misfits(small, fly_sets([small]), ledger("rendezvous"))[
+    own = misfits(small, simulate_sets([small]), ledger("rendezvous"))[
         small["inferred"]["readings"]["delta_v"]
     ].iloc[0]
     assert first["misfit"].min() <= own * (1 + 1e-6)

@@ -65,7 +65,8 @@ def flight(
             error = model.position_error if i < 3 else model.velocity_error
             measured[i] = state[i] + error * random.standard_normal()
         if s == 0:
-            begin(measured, model, estimate, covariance)
+            estimate[:] = measured
+            begin(model, covariance)
         else:
             update(estimate, covariance, measured, model)
         errors[s], raw[s] = estimate - state, measured - state

@@ -8,16 +8,15 @@ from hypothesis import strategies as st
 from smallsat.optimal_control.riccati_interior_point import ITERATION_LIMIT as OUT_OF_STEPS
 from smallsat.optimal_control.riccati_interior_point import SOLVED, Program, solve, workspace
 from smallsat.studies.rendezvous.guidance import law as guidance
+from smallsat.studies.rendezvous.guidance.controller import ITERATION_LIMIT, SOFTENED, TOLERANCE
 from smallsat.studies.rendezvous.guidance.phase_programs import (
     BOUNDS,
     PLANES,
-    program_room,
+    empty_program,
     write_program,
 )
-from smallsat.studies.rendezvous.methods import qp_solvers as back_ends
-from smallsat.studies.rendezvous.methods import solver_comparison
-from smallsat.studies.rendezvous.methods.solver_comparison import BACK_ENDS, NOT_FOR_LP, samples
-from smallsat.studies.rendezvous.simulation.closed_loop import ITERATION_LIMIT, SOFTENED, TOLERANCE
+from smallsat.studies.rendezvous.methods import qp_solvers, solver_comparison
+from smallsat.studies.rendezvous.methods.solver_comparison import NOT_FOR_LP, QP_SOLVERS, samples
 
 
 @pytest.fixture(scope="module")
@@ -27,17 +26,17 @@ def programs(laws, chasers):
 
 
 def cost(sample, controls):
-    return back_ends.cost(sample.program, sample.stages, sample.start, controls)
+    return qp_solvers.cost(sample.program, sample.stages, sample.start, controls)
 
 
-def test_all_back_ends_find_the_same_cost(programs):
+def test_all_solvers_find_the_same_cost(programs):
     """Costs agree to 1e-6 of what the control saves, but for OSQP's at its usual tolerance.
 
     The stage-wise solver, HPIPM and Clarabel solve every program. DAQP has constraints hard and may
     find a program infeasible, and PIQP now and then takes one for infeasible that is not.
     """
     answers, _ = solver_comparison.compare(programs)
-    for name in BACK_ENDS:
+    for name in QP_SOLVERS:
         mine = answers[answers["back_end"] == name]
         if name not in ("DAQP", "OSQP", "PIQP"):
             assert mine["solved"].all(), name
@@ -53,9 +52,9 @@ def test_osqp_finds_the_same_where_it_is_let_run(programs):
     """At 1e-7 instead of 1e-4, docking programs: costs within 1e-4 of what the control saves."""
     docking = [sample for sample in programs if sample.kind.startswith("final")]
     for sample in docking:
-        data = back_ends.sparse_program(sample.program, sample.stages, sample.start)
-        answer = back_ends.osqp(data, 1e-7)
-        mine = BACK_ENDS["stage-wise"](sample)
+        data = qp_solvers.sparse_program(sample.program, sample.stages, sample.start)
+        answer = qp_solvers.osqp(data, 1e-7)
+        mine = QP_SOLVERS["stage-wise"](sample)
         saved = cost(sample, np.zeros_like(mine.controls)) - cost(sample, mine.controls)
         assert answer.solved
         assert cost(sample, answer.controls) - cost(sample, mine.controls) < 1e-4 * saved
@@ -64,7 +63,7 @@ def test_osqp_finds_the_same_where_it_is_let_run(programs):
 def test_programs_are_of_every_kind(programs, laws):
     kinds = {sample.kind for sample in programs}
     assert len(kinds) == 13 and len(programs) >= 40
-    assert set(BACK_ENDS) >= NOT_FOR_LP
+    assert set(QP_SOLVERS) >= NOT_FOR_LP
 
 
 @settings(max_examples=40)
@@ -73,7 +72,7 @@ def test_no_other_control_is_better(programs, seed, size):
     """Random feasible changes of the plan never lower the cost by more than rounding."""
     random = np.random.default_rng(seed)
     sample = programs[seed % len(programs)]
-    answer = BACK_ENDS["stage-wise"](sample)
+    answer = QP_SOLVERS["stage-wise"](sample)
     best = cost(sample, answer.controls)
     change = size * random.normal(size=answer.controls.shape)
     change[random.random(len(change)) < random.random()] = 0.0
@@ -115,28 +114,26 @@ def test_random_programs_agree_with_clarabel(seed, stages, weight, one_norm):
         weight * random.uniform(0.5, 2.0, (stages + 1, bounds)),
     )
     start = random.normal(size=6)
-    mine = back_ends.own(program, stages, start, 1e-10)
-    other = back_ends.clarabel(back_ends.sparse_program(program, stages, start), 1e-9)
+    mine = qp_solvers.own(program, stages, start, 1e-10)
+    other = qp_solvers.clarabel(qp_solvers.sparse_program(program, stages, start), 1e-9)
     assert mine.solved
-    costs = [back_ends.cost(program, stages, start, x.controls) for x in (mine, other)]
+    costs = [qp_solvers.cost(program, stages, start, x.controls) for x in (mine, other)]
     assert costs[0] <= costs[1] + 1e-6 * (1.0 + abs(costs[1]))
 
 
 def test_a_constraint_gives_way_only_where_it_must(law):
     """Before the overshoot plane: softened for a chaser that cannot stop, not for one that can."""
     record = guidance.settings([law])[0]
-    room, work = program_room(15), workspace(15, PLANES, BOUNDS)
+    empty, work = empty_program(15), workspace(15, PLANES, BOUNDS)
     excess = {}
     for speed in (-0.1, -3.0):
         state = np.array([0.0, 30.0, 0.0, 0.0, speed, 0.0])
-        program, outside = write_program(record, 1, state, 0.0, room)
-        status, _ = solve(
-            program, 15, state / record["scales"][1], work, TOLERANCE, ITERATION_LIMIT
-        )
-        assert status == SOLVED and not outside
-        rows = slice(0, 15 * 5)
-        hard = work.rows[1, rows] == record["hard_weights"][1]
-        excess[speed] = work.rows[4, rows][hard].max()
+        program, outside = write_program(record, 1, state, 0.0, empty)
+        scaled = state / record["scales"][1]
+        solution = solve(program, 15, scaled, work, TOLERANCE, ITERATION_LIMIT)
+        assert solution.status == SOLVED and not outside
+        assert len(solution.excesses) == 15 * 5
+        excess[speed] = solution.excesses[solution.weights == record["hard_weights"][1]].max()
     assert excess[-0.1] < 0.01 * SOFTENED
     assert excess[-3.0] > 1e4 * SOFTENED
 
@@ -144,16 +141,16 @@ def test_a_constraint_gives_way_only_where_it_must(law):
 def test_an_interrupted_solution_says_so(programs):
     sample = programs[0]
     work = workspace(sample.stages, PLANES, BOUNDS)
-    status, steps = solve(sample.program, sample.stages, sample.start, work, TOLERANCE, 3)
-    assert (status, steps) == (OUT_OF_STEPS, 3)
+    solution = solve(sample.program, sample.stages, sample.start, work, TOLERANCE, 3)
+    assert (solution.status, solution.iterations) == (OUT_OF_STEPS, 3)
 
 
 def test_not_a_number_is_no_solution(programs):
     sample = programs[0]
     work = workspace(sample.stages, PLANES, BOUNDS)
     start = np.full(6, np.nan)
-    status, _ = solve(sample.program, sample.stages, start, work, TOLERANCE, ITERATION_LIMIT)
-    assert status != SOLVED
+    solution = solve(sample.program, sample.stages, start, work, TOLERANCE, ITERATION_LIMIT)
+    assert solution.status != SOLVED
 
 
 def test_answers_do_not_depend_on_what_was_solved_before(programs):

@@ -14,7 +14,7 @@ from smallsat.studies.rendezvous.figures import schematics
 from smallsat.studies.rendezvous.guidance.law import PHASES
 from smallsat.studies.rendezvous.methods.solver_comparison import samples
 from smallsat.studies.rendezvous.parameters import CASES, law, start_state
-from smallsat.studies.rendezvous.simulation.flights import fly_cases
+from smallsat.studies.rendezvous.simulation.flights import simulate_cases
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +32,7 @@ def section(config):
 @pytest.fixture(scope="module")
 def results(section, tmp_path_factory):
     folder = tmp_path_factory.mktemp("undocked")
-    fly_cases(section, folder)
+    simulate_cases(section, folder)
     return folder
 
 

@@ -33,6 +33,18 @@ STATES, CONTROLS = 6, 3
 BOUNDARY = 0.995  # share of the way to the boundary that a step may go
 START_SLACK = 0.5  # scaled, of a violated row in the first iterate
 
+# First index of `Workspace.rows`: b, w and g'x of a row, its slack t, excess s and multiplier y,
+# their steps, its curvature D, what it adds to the gradient along g, and the step of g'x.
+(
+    LIMIT, WEIGHT, VALUE, SLACK, EXCESS, MULTIPLIER, SLACK_STEP, EXCESS_STEP, MULTIPLIER_STEP,
+    CURVATURE, PUSH, VALUE_STEP,
+) = range(12)  # fmt: skip
+# First index of `Workspace.boxes`: a control's room above and below, the multipliers of both
+# bounds, their steps, the inverses of the rooms, and the curvature that the bounds add.
+(
+    ABOVE, BELOW, UPPER, LOWER, UPPER_STEP, LOWER_STEP, BY_ABOVE, BY_BELOW, BOX_CURVATURE,
+) = range(9)  # fmt: skip
+
 
 class Program(NamedTuple):
     """One quadratic program, scaled; N stages, up to P planes and B bounds a stage.
@@ -78,12 +90,10 @@ class Workspace(NamedTuple):
     states, controls, state_steps, control_steps
         The iterate and its step, (N + 1, 6) and (N, 3).
     boxes
-        For each control, flat: room to the upper and lower bound, multipliers of both, their
-        steps, inverses of the rooms, curvature, (9, 3 N).
+        What `ABOVE` to `BOX_CURVATURE` name, of each control, flat, (9, 3 N).
     rows
-        For each row: b, w, g'x, slack t, excess s, multiplier y, steps of t, s and y, curvature D,
-        contribution to the gradient, g'dx, (12, R). Rows on states come first, stage by stage,
-        then those on controls.
+        What `LIMIT` to `VALUE_STEP` name, of each row, (12, R). Rows on states come first, stage by
+        stage, then those on controls.
     curvature, state_rhs, control_rhs, control_curvature
         What the recursion starts from: H plus the rows' part, (N + 1, 6, 6), gradients and the
         controls' diagonal.
@@ -108,17 +118,37 @@ class Workspace(NamedTuple):
     feedforward: np.ndarray
 
 
+class Solution(NamedTuple):
+    """What `solve` found; arrays are views of the workspace, good until its next use.
+
+    Attributes
+    ----------
+    status, iterations
+        `SOLVED`, `ITERATION_LIMIT` or `NUMERICAL`; steps taken.
+    controls
+        Scaled, (N, 3).
+    weights, excesses
+        w and s of the rows on states, (R,), stage by stage.
+    """
+
+    status: int
+    iterations: int
+    controls: np.ndarray
+    weights: np.ndarray
+    excesses: np.ndarray
+
+
 @compiled
 def workspace(stages, planes, bounds):
-    """Room for programs of up to that many stages, planes and bounds a stage."""
+    """Return the `Workspace` for programs of up to that many stages, planes and bounds a stage."""
     rows = stages * (planes + bounds + CONTROLS)
     return Workspace(
         np.zeros((stages + 1, STATES)),
         np.zeros((stages, CONTROLS)),
         np.zeros((stages + 1, STATES)),
         np.zeros((stages, CONTROLS)),
-        np.zeros((9, CONTROLS * stages)),
-        np.zeros((12, rows)),
+        np.zeros((BOX_CURVATURE + 1, CONTROLS * stages)),
+        np.zeros((VALUE_STEP + 1, rows)),
         np.zeros((stages + 1, STATES, STATES)),
         np.zeros((stages + 1, STATES)),
         np.zeros((stages, CONTROLS)),
@@ -169,7 +199,7 @@ def _gather(program, stages, states, controls, values):
 
 @compiled_arithmetic
 def _list_rows(program, stages, limits, weights):
-    """Fill b and w of every row."""
+    """Fill b and w of every row; return the number of rows on states."""
     r = 0
     bounds = len(program.components)
     for i in range(1, stages + 1):
@@ -181,12 +211,14 @@ def _list_rows(program, stages, limits, weights):
             limits[r] = program.bounds[i, b]
             weights[r] = program.bound_weights[i, b]
             r += 1
+    on_states = r
     if program.control_norm[0] > 0.0:
         for _ in range(stages):
             for k in range(CONTROLS):
                 limits[r] = 0.0
                 weights[r] = 2.0 * program.control_norm[k]
                 r += 1
+    return on_states
 
 
 @compiled_arithmetic
@@ -198,8 +230,8 @@ def _start_rows(count, rows, mu):
     where t - s = b - g'x and y t = (w - y) s. (The other choice for a violated row, an excess that
     fits `mu`, needs twice the iterations and more where the program is infeasible.)
     """
-    limits, weights, values = rows[0], rows[1], rows[2]
-    slacks, excesses, multipliers = rows[3], rows[4], rows[5]
+    limits, weights, values = rows[LIMIT], rows[WEIGHT], rows[VALUE]
+    slacks, excesses, multipliers = rows[SLACK], rows[EXCESS], rows[MULTIPLIER]
     for r in range(count):
         w = weights[r]
         slack = max(limits[r] - values[r], START_SLACK)
@@ -266,7 +298,7 @@ def _scatter(program, stages, coefficients, state_rhs, control_rhs):
 @compiled_arithmetic
 def _assemble_curvature(program, stages, work):
     """H plus the rows' D g g' for every stage, and the controls' diagonal."""
-    curvatures, curved = work.rows[9], work.boxes[8]
+    curvatures, curved = work.rows[CURVATURE], work.boxes[BOX_CURVATURE]
     bounds = len(program.components)
     r = 0
     for i in range(1, stages + 1):
@@ -517,7 +549,7 @@ def solve(program, stages, start, work, tolerance, iteration_limit):
     program, stages, start
         The problem, its number of stages and the state that it starts from, (6,).
     work
-        Receives states and controls.
+        Memory of the method, see `workspace`; nothing in it is read before it is written.
     tolerance
         Of the complementarity and of the stationarity, relative to the largest gradient in a
         control where no control acts.
@@ -526,24 +558,23 @@ def solve(program, stages, start, work, tolerance, iteration_limit):
 
     Returns
     -------
-    int, int
-        `SOLVED`, `ITERATION_LIMIT` or `NUMERICAL`; steps taken.
+    Solution
     """
     transition = program.transition
     x, u, dx, du = work.states, work.controls, work.state_steps, work.control_steps
     rows, boxes = work.rows, work.boxes
-    limits, weights, values = rows[0], rows[1], rows[2]
-    t, s, y = rows[3], rows[4], rows[5]
-    dt, ds, dy, curvature = rows[6], rows[7], rows[8], rows[9]
-    push, moved = rows[10], rows[11]
-    above, below, upper, lower = boxes[0], boxes[1], boxes[2], boxes[3]
-    dupper, dlower, by_above, by_below = boxes[4], boxes[5], boxes[6], boxes[7]
-    curved = boxes[8]
+    limits, weights, values = rows[LIMIT], rows[WEIGHT], rows[VALUE]
+    t, s, y = rows[SLACK], rows[EXCESS], rows[MULTIPLIER]
+    dt, ds, dy = rows[SLACK_STEP], rows[EXCESS_STEP], rows[MULTIPLIER_STEP]
+    curvature, push, moved = rows[CURVATURE], rows[PUSH], rows[VALUE_STEP]
+    above, below, upper, lower = boxes[ABOVE], boxes[BELOW], boxes[UPPER], boxes[LOWER]
+    dupper, dlower = boxes[UPPER_STEP], boxes[LOWER_STEP]
+    by_above, by_below, curved = boxes[BY_ABOVE], boxes[BY_BELOW], boxes[BOX_CURVATURE]
     v, dv, push_control = u.reshape(-1), du.reshape(-1), work.control_rhs.reshape(-1)
 
     v[: CONTROLS * stages] = 0.0
     roll_out(transition, start, u, stages, x)
-    _list_rows(program, stages, limits, weights)
+    on_states = _list_rows(program, stages, limits, weights)
     count = _gather(program, stages, x, u, values)
     _objective_gradient(program, stages, work)
     scale = max(_largest_control_gradient(transition, stages, work), 1e-300)
@@ -560,9 +591,12 @@ def solve(program, stages, start, work, tolerance, iteration_limit):
     mu /= pairs
     residual = 1.0
 
-    for iteration in range(iteration_limit):
+    status, iteration = ITERATION_LIMIT, 0
+    while iteration < iteration_limit:
         if mu <= tolerance * scale and residual <= tolerance:
-            return SOLVED, iteration
+            status = SOLVED
+            break
+        iteration += 1
         # predictor: complementarity is aimed at zero
         for r in range(count):
             free = weights[r] - y[r]
@@ -665,5 +699,6 @@ def solve(program, stages, start, work, tolerance, iteration_limit):
         _gather(program, stages, x, u, values)
         residual *= 1.0 - alpha
         if not mu < np.inf:
-            return NUMERICAL, iteration + 1
-    return ITERATION_LIMIT, iteration_limit
+            status = NUMERICAL
+            break
+    return Solution(status, iteration, u[:stages], weights[:on_states], s[:on_states])

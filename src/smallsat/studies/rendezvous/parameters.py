@@ -13,13 +13,11 @@ from smallsat.studies.rendezvous.guidance.law import (
     AT_STAGE,
     AT_START,
     CONE_ONLY,
-    CURRENT,
     DISTANCE,
-    NATURAL,
     PHASES,
-    SHORTEST,
     Law,
 )
+from smallsat.studies.rendezvous.model.geometry import CURRENT, NATURAL, SHORTEST
 
 # The five manoeuvres of Section 3.6.
 CASES = ("v-bar", "r-bar", "rotating", "no-set-point", "lp")

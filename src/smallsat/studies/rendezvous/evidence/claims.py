@@ -25,9 +25,9 @@ from smallsat.studies.rendezvous.evidence.observations import FIRST_SECOND
 from smallsat.studies.rendezvous.guidance.law import PHASES
 from smallsat.studies.rendezvous.inference.search import printed_steps
 from smallsat.studies.rendezvous.inference.summary import STRUCTURES, acceptable, identified
+from smallsat.studies.rendezvous.model.columns import CHANGE, STATE
 from smallsat.studies.rendezvous.model.geometry import cone_faces, rotated
 from smallsat.studies.rendezvous.parameters import law, start_state
-from smallsat.studies.rendezvous.simulation.flights import CHANGE, STATE
 
 MUCH = 1.5  # "much longer": by half at least
 LITTLE = 0.1  # "comparable", "no significant amount": within a tenth

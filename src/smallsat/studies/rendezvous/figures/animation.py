@@ -24,8 +24,8 @@ from smallsat.studies.rendezvous.figures.cases import (
     turned,
 )
 from smallsat.studies.rendezvous.guidance.law import PHASES, Law
+from smallsat.studies.rendezvous.model.columns import CHANGE, STATE
 from smallsat.studies.rendezvous.parameters import law
-from smallsat.studies.rendezvous.simulation.flights import CHANGE, STATE
 
 SIZE = (960, 544)  # multiples of 16, as the encoder asks for
 DPI = 100

@@ -10,8 +10,8 @@ from matplotlib.pyplot import subplots
 
 from smallsat.config import Config
 from smallsat.studies.rendezvous.guidance.law import PHASES, Law
+from smallsat.studies.rendezvous.model.columns import CHANGE
 from smallsat.studies.rendezvous.parameters import law
-from smallsat.studies.rendezvous.simulation.flights import CHANGE
 
 Drawing = tuple[Figure, pd.DataFrame]
 

@@ -11,7 +11,6 @@ from matplotlib.pyplot import subplots
 
 from smallsat.config import Config
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
-from smallsat.optimal_control.riccati_interior_point import workspace
 from smallsat.studies.rendezvous.figures.cases import (
     INFERRED,
     PHASE_COLOURS,
@@ -19,14 +18,13 @@ from smallsat.studies.rendezvous.figures.cases import (
     draw_cone,
     draw_zone,
 )
+from smallsat.studies.rendezvous.guidance.controller import memory_for, next_control
 from smallsat.studies.rendezvous.guidance.law import PHASES, Law, settings
-from smallsat.studies.rendezvous.guidance.phase_programs import BOUNDS, PLANES, program_room
+from smallsat.studies.rendezvous.model.columns import CHANGE, STATE
 from smallsat.studies.rendezvous.model.environment import orbit_radius
 from smallsat.studies.rendezvous.model.geometry import keep_out_normals
 from smallsat.studies.rendezvous.model.prediction import transition
 from smallsat.studies.rendezvous.parameters import law
-from smallsat.studies.rendezvous.simulation.closed_loop import next_control
-from smallsat.studies.rendezvous.simulation.flights import CHANGE, STATE
 
 Drawing = tuple[Figure, pd.DataFrame]
 KM = 1000.0
@@ -41,17 +39,15 @@ def predicted(
     """States, (N + 1, 6), and velocity changes, (N, 3), that the law plans from a state."""
     record = settings([given])[0]
     stages = given.horizons[phase]
-    room = program_room(stages)
-    work = workspace(stages, PLANES, BOUNDS)
-    plan, place = np.zeros(work.controls.shape), np.zeros(2, np.int64)
-    next_control(record, phase, state, time, room, work, plan, place, np.zeros(3))
+    memory = memory_for(stages)
+    next_control(record, phase, state, time, memory, np.zeros(3))
     matrix = transition(rate_matrix(given.mean_motion), given.sample_times[phase])
     states = [state]
-    for change in plan[:stages]:
+    for change in memory.plan:
         moved = states[-1].copy()
         moved[3:] += change
         states.append(matrix @ moved)
-    return np.array(states), plan[:stages].copy()
+    return np.array(states), memory.plan
 
 
 def frame(section: Config) -> Drawing:

@@ -1,11 +1,13 @@
 """The guidance law's settings as plain data: one record a parameter set, for the compiled loop."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
+from smallsat.studies.rendezvous.model.geometry import NATURAL
 from smallsat.studies.rendezvous.model.prediction import terminal_weight, transition
 
 PHASES = ("far", "mid", "final")
@@ -14,7 +16,6 @@ RENDEZVOUS, APPROACH, DOCKING = 0, 1, 2
 HARD_WEIGHT = 100.0
 
 # Readings of what the document leaves open.
-SHORTEST, NATURAL, CURRENT = 0, 1, 2  # planes' direction where the axis is out of reach
 CONE_ONLY, DISTANCE, ALONG_AXIS = 0, 1, 2  # what the end of a phase asks for
 AT_START, AT_HORIZON, AT_STAGE = 0, 1, 2  # when a rotating reference or cone is taken
 
@@ -98,7 +99,7 @@ class Law:
     plane_rate
         Largest rotation rate of the keep-out plane in mean motions.
     plane_rule
-        ``SHORTEST``, ``NATURAL`` or ``CURRENT``.
+        `geometry.SHORTEST`, `NATURAL` or `CURRENT`.
     norm_weights, norm_terminal_weights, norm_control_weights
         Of the far range's 1-norm cost (2.10): diagonals (6,), (6,), (3,); ``None``: quadratic.
     set_point_time, terminal_cone_time
@@ -151,7 +152,7 @@ class Law:
         return replace(self, **changes)
 
 
-def settings(laws: list[Law]) -> np.ndarray:
+def settings(laws: Sequence[Law]) -> np.ndarray:
     """One `SETTINGS` record a law, with scaled matrices.
 
     Positions are scaled by the way that a full control makes over the horizon, velocities by the

@@ -14,6 +14,14 @@ import numpy as np
 
 from smallsat.dynamics.compiled import compiled
 from smallsat.optimal_control.riccati_interior_point import Program
+from smallsat.studies.rendezvous.guidance.law import (
+    APPROACH,
+    AT_HORIZON,
+    AT_STAGE,
+    AT_START,
+    DOCKING,
+    RENDEZVOUS,
+)
 from smallsat.studies.rendezvous.model.geometry import cone_faces, keep_out_normals, rotated
 
 PLANES = 5  # rows on the position at a stage, at most
@@ -22,8 +30,8 @@ START_TOLERANCE = 1e-6  # scaled
 
 
 @compiled
-def program_room(stages):
-    """Arrays for any program of up to that many stages."""
+def empty_program(stages):
+    """Return a `Program` with room for any of up to that many stages."""
     return Program(
         np.zeros((6, 6)),
         np.zeros(6),
@@ -43,29 +51,29 @@ def program_room(stages):
 
 
 @compiled
-def with_bounds(room, count):
-    """The program with only its first rows on components."""
+def with_bounds(program, count):
+    """Return the program with only its first `count` rows on components."""
     return Program(
-        room.transition,
-        room.state_hessian,
-        room.terminal_hessian,
-        room.state_gradient,
-        room.control_hessian,
-        room.control_norm,
-        room.plane_count,
-        room.normals,
-        room.offsets,
-        room.plane_weights,
-        room.components[:count],
-        room.signs[:count],
-        room.bounds,
-        room.bound_weights,
+        program.transition,
+        program.state_hessian,
+        program.terminal_hessian,
+        program.state_gradient,
+        program.control_hessian,
+        program.control_norm,
+        program.plane_count,
+        program.normals,
+        program.offsets,
+        program.plane_weights,
+        program.components[:count],
+        program.signs[:count],
+        program.bounds,
+        program.bound_weights,
     )
 
 
 @compiled
 def reference(law, distance, angle, out):
-    """Fill a point on the rotated axis, m, and, if asked for, the velocity of its turning, m/s."""
+    """Fill `out`, (6,): a point on the turned axis, m, and, if the law wants it, its velocity."""
     axis = np.empty(3)
     rotated(law.axis, angle, axis)
     for k in range(3):
@@ -78,16 +86,16 @@ def reference(law, distance, angle, out):
 
 @compiled
 def _time_of(rule, time, stage, stages, sample_time):
-    """Time at which something that rotates is taken: now, at the horizon's end, at each stage."""
-    if rule == 0:
+    """Return the time, s, at which something that rotates is taken, by its rule."""
+    if rule == AT_START:
         return time
-    if rule == 1:
+    if rule == AT_HORIZON:
         return time + stages * sample_time
     return time + stage * sample_time
 
 
 @compiled
-def write_program(law, phase, state, time, room):
+def write_program(law, phase, state, time, program):
     """Write the program of a phase.
 
     Parameters
@@ -98,8 +106,8 @@ def write_program(law, phase, state, time, room):
         0, 1 or 2.
     state, time
         Relative state, m and m/s, and time, s, at the start of the horizon.
-    room
-        Arrays of `program_room`, written.
+    program
+        Arrays of `empty_program`, written.
 
     Returns
     -------
@@ -113,48 +121,48 @@ def write_program(law, phase, state, time, room):
     hard = law.hard_weights[phase]
     penalty = law.penalties[phase]
     rate = law.rotation_rate
-    one_norm = phase == 0 and law.norm_control_weights[0] > 0.0
+    one_norm = phase == RENDEZVOUS and law.norm_control_weights[0] > 0.0
     for j in range(6):
         for k in range(6):
-            room.transition[j, k] = law.transitions[phase, j, k]
-            room.terminal_hessian[j, k] = 0.0 if one_norm else law.terminal_hessians[phase, j, k]
-        room.state_hessian[j] = 0.0 if one_norm else law.state_hessians[phase, j]
+            program.transition[j, k] = law.transitions[phase, j, k]
+            program.terminal_hessian[j, k] = 0.0 if one_norm else law.terminal_hessians[phase, j, k]
+        program.state_hessian[j] = 0.0 if one_norm else law.state_hessians[phase, j]
     for k in range(3):
-        room.control_hessian[k] = 0.0 if one_norm else law.control_hessians[phase, k]
-        room.control_norm[k] = law.norm_control_weights[k] if one_norm else 0.0
+        program.control_hessian[k] = 0.0 if one_norm else law.control_hessians[phase, k]
+        program.control_norm[k] = law.norm_control_weights[k] if one_norm else 0.0
 
     # cost
     point = np.empty(6)
-    distance = law.port if phase == 2 else law.set_points[phase]
-    rule = 2 if phase == 2 else law.set_point_time
+    distance = law.port if phase == DOCKING else law.set_points[phase]
+    rule = AT_STAGE if phase == DOCKING else law.set_point_time
     for i in range(1, stages + 1):
-        if i == 1 or (rule == 2 and rate != 0.0):
+        if i == 1 or (rule == AT_STAGE and rate != 0.0):
             reference(law, distance, rate * _time_of(rule, time, i, stages, ts), point)
             for k in range(6):
                 point[k] /= scale[k]
         if one_norm:
             for k in range(6):
                 weight = law.norm_weights[k] if i < stages else law.norm_terminal_weights[k]
-                room.components[k] = k
-                room.signs[k] = 1.0
-                room.bounds[i, k] = point[k]
-                room.bound_weights[i, k] = 2.0 * weight
-                room.state_gradient[i, k] = -weight
+                program.components[k] = k
+                program.signs[k] = 1.0
+                program.bounds[i, k] = point[k]
+                program.bound_weights[i, k] = 2.0 * weight
+                program.state_gradient[i, k] = -weight
         elif i < stages:
             for k in range(6):
-                room.state_gradient[i, k] = -law.state_hessians[phase, k] * point[k]
+                program.state_gradient[i, k] = -law.state_hessians[phase, k] * point[k]
         else:
             for j in range(6):
                 total = 0.0
                 for k in range(6):
                     total -= law.terminal_hessians[phase, j, k] * point[k]
-                room.state_gradient[i, j] = total
+                program.state_gradient[i, j] = total
 
     # constraints
     axis = np.empty(3)
     faces = np.empty((4, 3))
     outside = False
-    if phase == 0:
+    if phase == RENDEZVOUS:
         angle = rate * _time_of(law.terminal_cone_time, time, stages, stages, ts)
         rotated(law.axis, angle, axis)
         normals = np.empty((stages + 1, 3))
@@ -162,58 +170,58 @@ def write_program(law, phase, state, time, room):
             state[:3], state[3:], axis, stages, law.plane_rate * ts, law.plane_rule, normals
         )
         for i in range(1, stages + 1):
-            room.plane_count[i] = 1
+            program.plane_count[i] = 1
             for k in range(3):
-                room.normals[i, 0, k] = -normals[i, k]
-            room.offsets[i, 0] = -law.keep_out / length
-            room.plane_weights[i, 0] = hard
+                program.normals[i, 0, k] = -normals[i, k]
+            program.offsets[i, 0] = -law.keep_out / length
+            program.plane_weights[i, 0] = hard
         if penalty > 0.0:
             cone_faces(axis, law.tangents[0], faces)
-            room.plane_count[stages] = 5
+            program.plane_count[stages] = 5
             for face in range(4):
                 for k in range(3):
-                    room.normals[stages, 1 + face, k] = faces[face, k]
-                room.offsets[stages, 1 + face] = 0.0
-                room.plane_weights[stages, 1 + face] = penalty
+                    program.normals[stages, 1 + face, k] = faces[face, k]
+                program.offsets[stages, 1 + face] = 0.0
+                program.plane_weights[stages, 1 + face] = penalty
         gap = np.sqrt(state[0] ** 2 + state[1] ** 2 + state[2] ** 2) - law.keep_out
         outside = gap < -START_TOLERANCE * length
-        return with_bounds(room, 6 if one_norm else 0), outside
+        return with_bounds(program, 6 if one_norm else 0), outside
     for i in range(stages + 1):
         if i == 0 or rate != 0.0:
             rotated(law.axis, rate * (time + i * ts), axis)
             cone_faces(axis, law.tangents[phase], faces)
-        tip = law.port if phase == 2 else 0.0
-        weight = hard if phase == 2 else penalty
+        tip = law.port if phase == DOCKING else 0.0
+        weight = hard if phase == DOCKING else penalty
         for face in range(4):
             offset = 0.0
             for k in range(3):
-                room.normals[i, face, k] = faces[face, k]
+                program.normals[i, face, k] = faces[face, k]
                 offset += faces[face, k] * axis[k]
-            room.offsets[i, face] = tip * offset / length
-            room.plane_weights[i, face] = weight
-        room.plane_count[i] = 4
-        if phase == 1:
-            room.plane_count[i] = 5
+            program.offsets[i, face] = tip * offset / length
+            program.plane_weights[i, face] = weight
+        program.plane_count[i] = 4
+        if phase == APPROACH:
+            program.plane_count[i] = 5
             for k in range(3):
-                room.normals[i, 4, k] = -axis[k]
-            room.offsets[i, 4] = -law.overshoot / length
-            room.plane_weights[i, 4] = hard
+                program.normals[i, 4, k] = -axis[k]
+            program.offsets[i, 4] = -law.overshoot / length
+            program.plane_weights[i, 4] = hard
         if i == 0:
-            for p in range(room.plane_count[0]):
-                if room.plane_weights[0, p] == hard:
-                    excess = -room.offsets[0, p]
+            for p in range(program.plane_count[0]):
+                if program.plane_weights[0, p] == hard:
+                    excess = -program.offsets[0, p]
                     for k in range(3):
-                        excess += room.normals[0, p, k] * state[k] / length
+                        excess += program.normals[0, p, k] * state[k] / length
                     outside = outside or excess > START_TOLERANCE
-    if phase == 1:
-        return with_bounds(room, 0), outside
+    if phase == APPROACH:
+        return with_bounds(program, 0), outside
     for b in range(6):
-        room.components[b] = 3 + b // 2
-        room.signs[b] = 1.0 - 2.0 * (b % 2)
+        program.components[b] = 3 + b // 2
+        program.signs[b] = 1.0 - 2.0 * (b % 2)
         for i in range(1, stages + 1):
-            room.bounds[i, b] = law.speed_bound / speed
-            room.bound_weights[i, b] = hard
+            program.bounds[i, b] = law.speed_bound / speed
+            program.bound_weights[i, b] = hard
         outside = outside or (
-            room.signs[b] * state[3 + b // 2] - law.speed_bound > START_TOLERANCE * speed
+            program.signs[b] * state[3 + b // 2] - law.speed_bound > START_TOLERANCE * speed
         )
-    return with_bounds(room, 6), outside
+    return with_bounds(program, 6), outside

@@ -28,7 +28,7 @@ from smallsat.studies.rendezvous.evidence.case_tables import (
 from smallsat.studies.rendezvous.guidance.law import PHASES, Law
 from smallsat.studies.rendezvous.model.geometry import cone_faces, rotated
 from smallsat.studies.rendezvous.parameters import law, start_state
-from smallsat.studies.rendezvous.simulation.closed_loop import Steps, manoeuvres
+from smallsat.studies.rendezvous.simulation.closed_loop import Steps, simulate
 from smallsat.studies.rendezvous.simulation.delta_v import READINGS, summed
 
 FITTED_CASES = (*CASE_TABLES, "no-set-point")
@@ -76,8 +76,8 @@ def printed_steps(section: Config, ledger: Ledger) -> dict[tuple[str, str], int]
     }
 
 
-def fly_sets(sections: Sequence[Config], cases: Sequence[str] = FITTED_CASES) -> pd.DataFrame:
-    """Fly cases with parameter sets: a row a set, case and phase.
+def simulate_sets(sections: Sequence[Config], cases: Sequence[str] = FITTED_CASES) -> pd.DataFrame:
+    """Simulate cases with parameter sets: a row a set, case and phase.
 
     Columns: ``set`` (its place), ``case``, ``phase``, ``ended``, ``steps``, ``crossing`` (steps
     until the end condition, interpolated), ``time_s`` and a delta-v for each of `READINGS`.
@@ -86,10 +86,10 @@ def fly_sets(sections: Sequence[Config], cases: Sequence[str] = FITTED_CASES) ->
         law(section, case).with_(time_limit=TIME_LIMIT_S) for section in sections for case in cases
     ]
     starts = np.array([start_state(section) for section in sections for _ in cases])
-    flown = manoeuvres(laws, starts, with_steps=True)
+    flown = simulate(laws, starts, with_steps=True)
     rows = []
     for number, given in enumerate(laws):
-        steps = flown.records[number]
+        steps = flown.record(number)
         for phase, name in enumerate(PHASES):
             own = steps.phase == phase
             ended = bool(flown.docked[number] if phase == 2 else (steps.phase > phase).any())
@@ -235,7 +235,7 @@ def search(section: Config, side: str, ledger: Ledger) -> pd.DataFrame:
         """Misfits (sets,) of a population, shape (parameters, sets) as the optimiser has it."""
         columns = np.atleast_2d(places.T)
         sets = [decoded(place) for place in columns]
-        flown = fly_sets([with_values(section, *one) for one in sets])
+        flown = simulate_sets([with_values(section, *one) for one in sets])
         found = misfits(section, flown, ledger)
         table = pd.DataFrame([values | readings for values, readings in sets])
         table["misfit"] = found.min(axis=1).to_numpy()

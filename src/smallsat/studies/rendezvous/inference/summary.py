@@ -12,9 +12,9 @@ from smallsat.studies.rendezvous.evidence.case_tables import MINUTE, total_cells
 from smallsat.studies.rendezvous.inference.search import (
     CHOICES,
     SIDES,
-    fly_sets,
     parameter_names,
     residuals,
+    simulate_sets,
     with_values,
 )
 from smallsat.studies.rendezvous.parameters import CASES
@@ -35,7 +35,7 @@ LP_TERMINAL = (1.0, 1e2, 1e4, 1e5)
 def configured_residuals(section: Config, ledger: Ledger) -> pd.DataFrame:
     """Residuals of every fitted cell with the configured set, one row a cell."""
     reading = section["inferred"]["readings"]["delta_v"]
-    table = residuals(section, fly_sets([section]), ledger)
+    table = residuals(section, simulate_sets([section]), ledger)
     return pd.DataFrame(
         {
             "cell": table["cell"],
@@ -155,7 +155,7 @@ def ensemble(section: Config, evaluated: pd.DataFrame) -> pd.DataFrame:
     for row in chosen.to_dict("records"):
         structure = {"r_bar": row["side"], **{key: row[key] for key in CHOICES}}
         sections.append(with_values(section, {name: row[name] for name in names}, structure))
-    flown = fly_sets(sections, CASES)
+    flown = simulate_sets(sections, CASES)
     best = chosen["delta_v"].to_list()
     flown["delta_v_m_s"] = [row[best[row["set"]]] for row in flown.to_dict("records")]
     flown["misfit"] = flown["set"].map(dict(enumerate(chosen["misfit"])))
@@ -176,7 +176,7 @@ def linear_programs(section: Config, ledger: Ledger) -> pd.DataFrame:
         }
         sections.append(changed)
         rows.append({"set_point": point, "control_weight": control, "terminal_weight": terminal})
-    flown = fly_sets(sections, ("lp",))
+    flown = simulate_sets(sections, ("lp",))
     reading = section["inferred"]["readings"]["delta_v"]
     printed: Any = total_cells(ledger).set_index("case").loc["lp"]
     groups: Any = flown.groupby("set")

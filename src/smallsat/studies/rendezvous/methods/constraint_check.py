@@ -4,98 +4,27 @@ The programs know the linear prediction and the samples only. Here the motion is
 pieces, in the linear model or in the full one, with impulses or with burns.
 """
 
-from typing import Protocol
-
 import numpy as np
 import pandas as pd
 
 from smallsat.config import Config
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
-from smallsat.optimal_control.riccati_interior_point import workspace
-from smallsat.studies.rendezvous.guidance.law import PHASES, Law, settings
-from smallsat.studies.rendezvous.guidance.phase_programs import BOUNDS, PLANES, program_room
-from smallsat.studies.rendezvous.model.environment import environment, target_state
+from smallsat.studies.rendezvous.guidance.controller import memory_for, next_control, phase_ended
+from smallsat.studies.rendezvous.guidance.law import APPROACH, PHASES, RENDEZVOUS, Law, settings
 from smallsat.studies.rendezvous.model.geometry import cone_faces, rotated
 from smallsat.studies.rendezvous.model.prediction import transition
-from smallsat.studies.rendezvous.model.thrusters import pulse_on_times, thrust_acceleration
-from smallsat.studies.rendezvous.model.truth import (
-    Environment,
-    advance,
-    pair_from_relative,
-    relative_state,
+from smallsat.studies.rendezvous.simulation.disturbances import nonlinear_motion
+from smallsat.studies.rendezvous.simulation.motion import (
+    BURNS,
+    COMMANDED,
+    NonlinearMotion,
+    begin,
+    coast,
+    push,
+    relative,
 )
-from smallsat.studies.rendezvous.simulation.closed_loop import next_control, phase_ended
 
 PIECE_S = 1.0
-
-
-class Motion(Protocol):
-    """What the guidance moves; states are relative ones, m and m/s."""
-
-    def state(self) -> np.ndarray:
-        """Relative state, (6,)."""
-
-    def control(self, velocity_change: np.ndarray) -> None:
-        """Begin a step with a velocity change, (3,), m/s."""
-
-    def move(self, time: float, duration: float) -> None:
-        """Go on for a while."""
-
-
-class LinearMotion:
-    """Clohessy and Wiltshire's equations, impulses."""
-
-    def __init__(self, mean_motion: float, start: np.ndarray):
-        self._matrix = rate_matrix(mean_motion)
-        self._state = np.array(start, dtype=float)
-
-    def state(self) -> np.ndarray:
-        """Relative state."""
-        return self._state.copy()
-
-    def control(self, velocity_change: np.ndarray) -> None:
-        """Change the velocity."""
-        self._state[3:] += velocity_change
-
-    def move(self, time: float, duration: float) -> None:
-        """Multiply by the transition."""
-        self._state = transition(self._matrix, duration) @ self._state
-
-
-class FieldMotion:
-    """Two bodies in the Earth's field with drag; impulses, or burns of a thruster, kg and N."""
-
-    def __init__(
-        self,
-        around: Environment,
-        target: np.ndarray,
-        start: np.ndarray,
-        thruster: tuple[float, float] | None = None,
-    ):
-        self._around, self._thruster = around, thruster
-        self._pair = pair_from_relative(target, np.array(start, dtype=float))
-        self._left, self._acceleration = np.zeros(3), np.zeros(3)
-
-    def state(self) -> np.ndarray:
-        """Relative state."""
-        return relative_state(self._pair)
-
-    def control(self, velocity_change: np.ndarray) -> None:
-        """Change the velocity, or open the thrusters for the time that this takes."""
-        if self._thruster is None:
-            state = relative_state(self._pair)
-            state[3:] += velocity_change
-            self._pair = pair_from_relative(self._pair[0], state)
-            return
-        mass, force = self._thruster
-        pulse_on_times(velocity_change, mass, force, 0.0, self._left)
-        thrust_acceleration(velocity_change, mass, force, self._acceleration)
-
-    def move(self, time: float, duration: float) -> None:
-        """Integrate; thrusters burn along the axes at the start of the piece."""
-        burning = np.minimum(self._left, duration)
-        advance(self._pair, time, duration, self._acceleration, burning, self._around)
-        self._left -= burning
 
 
 def violations(law: Law, phase: int, state: np.ndarray, time: float) -> dict[str, float]:
@@ -103,14 +32,21 @@ def violations(law: Law, phase: int, state: np.ndarray, time: float) -> dict[str
 
     ``keep out``, ``overshoot``, ``cone`` in metres, ``speed`` in m/s. The cone of the mid range is
     a penalty, not a constraint.
+
+    Parameters
+    ----------
+    law, phase
+        The guidance law; 0, 1 or 2.
+    state, time
+        Relative state (6,) in the Hill frame, m and m/s, and when, s.
     """
     axis, faces = np.empty(3), np.empty((4, 3))
     rotated(np.array(law.axis), law.rotation_rate * time, axis)
     cone_faces(axis, np.tan(law.cone_angles[phase]), faces)
     position, velocity = state[:3], state[3:]
-    if phase == 0:
+    if phase == RENDEZVOUS:
         return {"keep out": law.keep_out - float(np.linalg.norm(position))}
-    if phase == 1:
+    if phase == APPROACH:
         return {
             "overshoot": law.overshoot - float(axis @ position),
             "cone penalty": float((faces @ position).max()),
@@ -121,8 +57,17 @@ def violations(law: Law, phase: int, state: np.ndarray, time: float) -> dict[str
     }
 
 
-def follow(law: Law, motion: Motion) -> pd.DataFrame:
-    """Fly one manoeuvre and look at the constraints every `PIECE_S`.
+def follow(law: Law, start: np.ndarray, motion: NonlinearMotion | None = None) -> pd.DataFrame:
+    """Simulate one manoeuvre and look at the constraints every `PIECE_S`.
+
+    Thrusters that burn keep to the axes of the Hill frame, piece by piece.
+
+    Parameters
+    ----------
+    law, start
+        The guidance law; relative state (6,) in the Hill frame, m and m/s.
+    motion
+        What the law guides, with a known state; ``None``: linear.
 
     Returns
     -------
@@ -130,30 +75,30 @@ def follow(law: Law, motion: Motion) -> pd.DataFrame:
         ``phase``, ``constraint``, ``place``, ``violation``: place is ``start`` for the first
         sample of a phase, over which its programs have no power, ``sample`` or ``between``.
     """
-    record = settings([law])[0]
-    room = program_room(max(law.horizons))
-    work = workspace(max(law.horizons), PLANES, BOUNDS)
-    plan, place = np.empty((max(law.horizons), 3)), np.zeros(2, np.int64)
-    command, axis, faces = np.zeros(3), np.empty(3), np.empty((4, 3))
+    record, memory = settings([law])[0], memory_for(max(law.horizons))
+    pair = begin(motion, np.array(start, dtype=float))
+    command, applied, burn, on_times = np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3)
     time, rows = 0.0, []
 
     def note(phase: int, where: str) -> None:
-        for name, value in violations(law, phase, motion.state(), time).items():
+        for name, value in violations(law, phase, relative(motion, pair), time).items():
             rows.append((PHASES[phase], name, where, value))
 
-    for phase in range(3):
-        place[:] = 0
+    for phase, duration in enumerate(law.sample_times):
+        pieces = max(1, round(duration / PIECE_S))
+        piece = duration / pieces
+        matrix = transition(rate_matrix(law.mean_motion), piece)
+        memory.remaining[0] = 0
         note(phase, "start")
-        while time + law.sample_times[phase] <= law.time_limit:
-            state = motion.state()
-            next_control(record, phase, state, time, room, work, plan, place, command)
-            motion.control(command)
-            pieces = max(1, round(law.sample_times[phase] / PIECE_S))
-            for piece in range(pieces):
-                motion.move(time, law.sample_times[phase] / pieces)
-                time += law.sample_times[phase] / pieces
-                note(phase, "between" if piece < pieces - 1 else "sample")
-            if phase_ended(record, phase, motion.state(), time, axis, faces):
+        while time + duration <= law.time_limit:
+            next_control(record, phase, relative(motion, pair), time, memory, command)
+            push(motion, pair, command, 0.0, duration, burn, on_times, applied)
+            for number in range(1, pieces + 1):
+                coast(motion, pair, matrix, time, piece, burn, on_times)
+                on_times = np.maximum(on_times - piece, 0.0)
+                time += piece
+                note(phase, "between" if number < pieces else "sample")
+            if phase_ended(record, phase, relative(motion, pair), time):
                 break
         else:
             break
@@ -172,22 +117,17 @@ def table(section: Config, laws: dict[str, Law], start: np.ndarray) -> pd.DataFr
     start
         Relative state, (6,), m and m/s.
     """
-    craft = section["spacecraft"]
     parts = []
     for name, law in laws.items():
-        around = environment(section["truth"], law.mean_motion, craft["mass_kg"])
-        target = target_state(section["truth"], law.mean_motion)
-        thruster = (craft["mass_kg"], craft["thruster_N"])
-        motions: dict[str, Motion] = {
-            "linear": LinearMotion(law.mean_motion, start),
-            "field, impulses": FieldMotion(around, target, start),
-            "field, burns": FieldMotion(around, target, start, thruster),
-        }
-        for motion, moved in motions.items():
-            found = follow(law, moved)
+        for label, motion in {
+            "linear": None,
+            "field, impulses": nonlinear_motion(section, law, COMMANDED),
+            "field, burns": nonlinear_motion(section, law, BURNS),
+        }.items():
+            found = follow(law, start, motion)
             largest = found.groupby(["phase", "constraint", "place"], sort=False)["violation"].max()
             part = largest.unstack().reindex(columns=["start", "sample", "between"]).reset_index()
             part.insert(0, "flight", name)
-            part.insert(1, "motion", motion)
+            part.insert(1, "motion", label)
             parts.append(part)
     return pd.concat(parts, ignore_index=True)

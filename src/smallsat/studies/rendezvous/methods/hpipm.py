@@ -5,7 +5,6 @@ code too, since they are plain C; what they cost is measured around the solution
 """
 
 import ctypes
-import time
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -14,6 +13,7 @@ import casadi
 import numpy as np
 
 from smallsat.optimal_control.riccati_interior_point import CONTROLS, STATES, Program
+from smallsat.studies.rendezvous.methods.qp_solvers import Answer, stage_rows, timed
 
 SPEED = 1  # of the modes in hpipm_common.h; the absolute one has no soft constraints that work
 SUCCESS = 0
@@ -27,132 +27,84 @@ def _library() -> ctypes.CDLL:
     return ctypes.CDLL(str(folder / "libhpipm.so"))
 
 
-def _room(function: str, *arguments: Any) -> ctypes.Array:
+def _memory(function: str, *arguments: Any) -> ctypes.Array:
+    """Return as many bytes as a function of the library says, and some to align them."""
     size = getattr(_library(), function)
     size.restype = ctypes.c_size_t
     return ctypes.create_string_buffer(size(*arguments) + 64)
 
 
-def _set(function: str, field: str, stage: int, value: np.ndarray, where: Any) -> None:
-    """Hand over an array; matrices column by column, as the library wants them."""
-    kind = np.int32 if field.startswith("idx") else np.float64
-    flat = np.asarray(value, dtype=kind).ravel(order="F")
-    getattr(_library(), function)(field.encode(), stage, ctypes.c_void_p(flat.ctypes.data), where)
+def _created(kind: str, *arguments: Any) -> tuple[ctypes.Array, ctypes.Array]:
+    """Return an object of the library and the memory that it lives in and must outlive it."""
+    made, memory = _memory(f"{kind}_strsize"), _memory(f"{kind}_memsize", *arguments)
+    getattr(_library(), f"{kind}_create")(*arguments, made, memory)
+    return made, memory
 
 
-def _stage_rows(program: Program, i: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Rows on the state of a stage: G (R, 6), b, w."""
-    planes, bounds = program.plane_count[i], len(program.components)
-    rows = np.zeros((planes + bounds, STATES))
-    rows[:planes, :3] = program.normals[i, :planes]
-    rows[planes + np.arange(bounds), program.components] = program.signs
-    limits = np.concatenate([program.offsets[i, :planes], program.bounds[i, :bounds]])
-    weights = np.concatenate([program.plane_weights[i, :planes], program.bound_weights[i, :bounds]])
-    return rows, limits, weights
+def _fields(program: Program, stages: int, start: np.ndarray, i: int) -> dict[str, np.ndarray]:
+    """Return what HPIPM is told of a stage.
 
-
-class Solver:
-    """One program in HPIPM's own memory.
-
-    The state at the start is eliminated; penalty rows are its soft constraints, with only their
-    upper side in use.
+    The state at the start is eliminated; rows are soft constraints, with only their upper side.
     """
+    fields: dict[str, Any] = {}
+    a = program.transition
+    if i < stages:
+        fields |= {"A": a} if i > 0 else {}
+        fields |= {"B": a[:, 3:], "b": a @ start if i == 0 else np.zeros(STATES)}
+        fields |= {"R": np.diag(program.control_hessian), "r": np.zeros(CONTROLS)}
+        fields |= {
+            "idxbu": np.arange(CONTROLS),
+            "lbu": -np.ones(CONTROLS),
+            "ubu": np.ones(CONTROLS),
+        }
+    if i > 0:
+        rows, limits, weights = stage_rows(program, i)
+        none, first = np.zeros(len(limits)), CONTROLS if i < stages else 0
+        fields["Q"] = np.diag(program.state_hessian) if i < stages else program.terminal_hessian
+        fields["q"] = program.state_gradient[i]
+        fields |= {"D": np.zeros((len(limits), CONTROLS))} if i < stages else {}
+        fields |= {"C": rows, "ug": limits, "lg": none, "lg_mask": none}
+        fields |= {"idxs": first + np.arange(len(limits)), "Zl": none, "Zu": none}
+        fields |= {"zl": none + 1.0, "lls": none, "lus": none, "zu": weights}
+    return fields
 
-    def __init__(self, program: Program, stages: int, start: np.ndarray, tolerance: float):
-        if program.control_norm[0] > 0.0:
-            raise ValueError("HPIPM is given quadratic costs only")
-        self.stages = stages
-        library = _library()
-        rows = {i: _stage_rows(program, i) for i in range(1, stages + 1)}
-        counts = [0, *(len(rows[i][1]) for i in range(1, stages + 1))]
-        self._dimensions = self._create_dimensions(counts)
-        self._program = _room("d_ocp_qp_strsize")
-        self._memory = [_room("d_ocp_qp_memsize", self._dimensions)]
-        library.d_ocp_qp_create(self._dimensions, self._program, self._memory[0])
-        a, b = program.transition, program.transition[:, 3:]
-        for i in range(stages + 1):
-            if i < stages:
-                if i > 0:
-                    self._put("A", i, a)
-                self._put("B", i, b)
-                self._put("b", i, a @ start if i == 0 else np.zeros(STATES))
-                self._put("R", i, np.diag(program.control_hessian))
-                self._put("r", i, np.zeros(CONTROLS))
-                self._put("idxbu", i, np.arange(CONTROLS))
-                self._put("lbu", i, -np.ones(CONTROLS))
-                self._put("ubu", i, np.ones(CONTROLS))
-            if i > 0:
-                weight = np.diag(program.state_hessian) if i < stages else program.terminal_hessian
-                self._put("Q", i, weight)
-                self._put("q", i, program.state_gradient[i])
-                self._put_rows(i, *rows[i])
-        self._solution = _room("d_ocp_qp_sol_strsize")
-        self._memory.append(_room("d_ocp_qp_sol_memsize", self._dimensions))
-        library.d_ocp_qp_sol_create(self._dimensions, self._solution, self._memory[1])
-        self._arguments = self._create_arguments(tolerance)
-        self._work = _room("d_ocp_qp_ipm_ws_strsize")
-        self._memory.append(_room("d_ocp_qp_ipm_ws_memsize", self._dimensions, self._arguments))
-        library.d_ocp_qp_ipm_ws_create(
-            self._dimensions, self._arguments, self._work, self._memory[-1]
-        )
 
-    def _put(self, field: str, stage: int, value: np.ndarray) -> None:
-        _set("d_ocp_qp_set", field, stage, value, self._program)
+def hpipm(program: Program, stages: int, start: np.ndarray, tolerance: float) -> Answer:
+    """HPIPM: a Riccati-based interior-point method, for quadratic costs."""
+    library = _library()
+    sizes, sizes_memory = _created("d_ocp_qp_dim", stages)
+    told = [_fields(program, stages, start, i) for i in range(stages + 1)]
+    for i, fields in enumerate(told):
+        controls, rows = len(fields.get("idxbu", [])), len(fields.get("ug", []))
+        states = STATES if i > 0 else 0
+        for name, size in zip(
+            ("nx", "nu", "nbx", "nbu", "ng", "ns"),
+            (states, controls, 0, controls, rows, rows),
+            strict=True,
+        ):
+            library.d_ocp_qp_dim_set(name.encode(), i, size, sizes)
+    problem, problem_memory = _created("d_ocp_qp", sizes)
+    for i, fields in enumerate(told):
+        for name, value in fields.items():
+            # Matrices go column by column, and indices are whole numbers.
+            kind = np.int32 if name.startswith("idx") else np.float64
+            flat = np.asarray(value, dtype=kind).ravel(order="F")
+            library.d_ocp_qp_set(name.encode(), i, ctypes.c_void_p(flat.ctypes.data), problem)
+    solution, solution_memory = _created("d_ocp_qp_sol", sizes)
+    options, options_memory = _created("d_ocp_qp_ipm_arg", sizes)
+    library.d_ocp_qp_ipm_arg_set_default(SPEED, options)
+    limit, accuracy = ctypes.c_int(ITERATION_LIMIT), ctypes.c_double(tolerance)
+    library.d_ocp_qp_ipm_arg_set(b"iter_max", ctypes.byref(limit), options)
+    for name in ("tol_stat", "tol_eq", "tol_ineq", "tol_comp"):
+        library.d_ocp_qp_ipm_arg_set(name.encode(), ctypes.byref(accuracy), options)
+    work, work_memory = _created("d_ocp_qp_ipm_ws", sizes, options)
 
-    def _put_rows(self, i: int, rows: np.ndarray, limits: np.ndarray, weights: np.ndarray) -> None:
-        count = len(limits)
-        if i < self.stages:
-            self._put("D", i, np.zeros((count, CONTROLS)))
-        self._put("C", i, rows)
-        self._put("ug", i, limits)
-        self._put("lg", i, np.zeros(count))
-        self._put("lg_mask", i, np.zeros(count))
-        self._put("idxs", i, np.arange(count) + (CONTROLS if i < self.stages else 0))
-        for field, value in (("Zl", 0.0), ("Zu", 0.0), ("zl", 1.0), ("lls", 0.0), ("lus", 0.0)):
-            self._put(field, i, np.full(count, value))
-        self._put("zu", i, weights)
-
-    def _create_dimensions(self, counts: list[int]) -> ctypes.Array:
-        library = _library()
-        dimensions = _room("d_ocp_qp_dim_strsize")
-        self._dimension_memory = _room("d_ocp_qp_dim_memsize", self.stages)
-        library.d_ocp_qp_dim_create(self.stages, dimensions, self._dimension_memory)
-        for i, count in enumerate(counts):
-            last = i == self.stages
-            for field, value in (
-                ("nx", STATES if i > 0 else 0),
-                ("nu", 0 if last else CONTROLS),
-                ("nbx", 0),
-                ("nbu", 0 if last else CONTROLS),
-                ("ng", count),
-                ("ns", count),
-            ):
-                library.d_ocp_qp_dim_set(field.encode(), i, value, dimensions)
-        return dimensions
-
-    def _create_arguments(self, tolerance: float) -> ctypes.Array:
-        library = _library()
-        arguments = _room("d_ocp_qp_ipm_arg_strsize")
-        self._memory.append(_room("d_ocp_qp_ipm_arg_memsize", self._dimensions))
-        library.d_ocp_qp_ipm_arg_create(self._dimensions, arguments, self._memory[-1])
-        library.d_ocp_qp_ipm_arg_set_default(SPEED, arguments)
-        limit = ctypes.c_int(ITERATION_LIMIT)
-        library.d_ocp_qp_ipm_arg_set(b"iter_max", ctypes.byref(limit), arguments)
-        value = ctypes.c_double(tolerance)
-        for field in (b"tol_stat", b"tol_eq", b"tol_ineq", b"tol_comp"):
-            library.d_ocp_qp_ipm_arg_set(field, ctypes.byref(value), arguments)
-        return arguments
-
-    def solve(self) -> tuple[bool, np.ndarray, int, float]:
-        """Whether solved, controls (N, 3), iterations, processor seconds."""
-        library = _library()
-        begin = time.process_time()
-        library.d_ocp_qp_ipm_solve(self._program, self._solution, self._arguments, self._work)
-        seconds = time.process_time() - begin
-        status, iterations = ctypes.c_int(), ctypes.c_int()
-        library.d_ocp_qp_ipm_get_status(self._work, ctypes.byref(status))
-        library.d_ocp_qp_ipm_get_iter(self._work, ctypes.byref(iterations))
-        controls = np.zeros((self.stages, CONTROLS))
-        for i in range(self.stages):
-            library.d_ocp_qp_sol_get_u(i, self._solution, ctypes.c_void_p(controls[i].ctypes.data))
-        return status.value == SUCCESS, controls, iterations.value, seconds
+    _, seconds = timed(lambda: library.d_ocp_qp_ipm_solve(problem, solution, options, work))
+    status, iterations = ctypes.c_int(), ctypes.c_int()
+    library.d_ocp_qp_ipm_get_status(work, ctypes.byref(status))
+    library.d_ocp_qp_ipm_get_iter(work, ctypes.byref(iterations))
+    found = np.zeros((stages, CONTROLS))
+    for i in range(stages):
+        library.d_ocp_qp_sol_get_u(i, solution, ctypes.c_void_p(found[i].ctypes.data))
+    del sizes_memory, problem_memory, solution_memory, options_memory, work_memory
+    return Answer(status.value == SUCCESS, found, iterations.value, seconds)

@@ -2,13 +2,19 @@
 
 All solve the same problem, in which constraints are penalties with a large weight; DAQP alone has
 them hard, for which it has a form, and so finds some programs infeasible.
+
+Each library is called by its own interface, not through qpsolvers: that counts wall-clock seconds
+instead of the processor's, tells no iterations of Clarabel and DAQP, and hands HPIPM one dense
+problem, without the stages that it is made for.
 """
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
+import scipy.linalg
 import scipy.sparse as sparse
 
 from smallsat.dynamics.compiled import compiled
@@ -20,8 +26,8 @@ from smallsat.optimal_control.riccati_interior_point import (
     solve,
     workspace,
 )
-from smallsat.studies.rendezvous.methods import hpipm as hpipm_library
 
+Result = TypeVar("Result")
 OWN_LIMIT = 100  # iterations
 REPETITIONS = 20  # of the stage-wise solver, whose time is too short for the clock
 
@@ -46,7 +52,7 @@ class SparseProgram:
 
 @dataclass(frozen=True)
 class Answer:
-    """What a back end gave.
+    """What a solver gave.
 
     Attributes
     ----------
@@ -66,33 +72,29 @@ class Answer:
     seconds: float
 
 
+def stage_rows(program: Program, i: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Rows on the state of a stage: G (R, 6), b and w (R,), in G x - excess <= b."""
+    planes, bounds = program.plane_count[i], len(program.components)
+    rows = np.zeros((planes + bounds, STATES))
+    rows[:planes, :3] = program.normals[i, :planes]
+    rows[planes + np.arange(bounds), program.components] = program.signs
+    limits = np.concatenate([program.offsets[i, :planes], program.bounds[i, :bounds]])
+    weights = np.concatenate([program.plane_weights[i, :planes], program.bound_weights[i, :bounds]])
+    return rows, limits, weights
+
+
 def row_list(program: Program, stages: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """All rows on states and controls as G z - excess <= b; G (R, 9 N) dense, b and w (R,)."""
-    bounds = len(program.components)
-    entries, limits, weights = [], [], []
-    offset = CONTROLS * stages
-    for i in range(1, stages + 1):
-        at = offset + STATES * (i - 1)
-        for p in range(program.plane_count[i]):
-            row = np.zeros(offset + STATES * stages)
-            row[at : at + 3] = program.normals[i, p]
-            entries.append(row)
-            limits.append(program.offsets[i, p])
-            weights.append(program.plane_weights[i, p])
-        for b in range(bounds):
-            row = np.zeros(offset + STATES * stages)
-            row[at + program.components[b]] = program.signs[b]
-            entries.append(row)
-            limits.append(program.bounds[i, b])
-            weights.append(program.bound_weights[i, b])
+    """All rows on controls and states z, (9 N,), as G z - excess <= b; G (R, 9 N), b and w (R,)."""
+    matrices, limits, weights = zip(
+        *(stage_rows(program, i) for i in range(1, stages + 1)), strict=True
+    )
+    matrix = scipy.linalg.block_diag(*matrices)
+    matrix = np.hstack([np.zeros((len(matrix), CONTROLS * stages)), matrix])
     if program.control_norm[0] > 0.0:
-        for c in range(offset):
-            row = np.zeros(offset + STATES * stages)
-            row[c] = 1.0
-            entries.append(row)
-            limits.append(0.0)
-            weights.append(2.0 * program.control_norm[c % CONTROLS])
-    return np.array(entries), np.array(limits), np.array(weights)
+        matrix = np.vstack([matrix, np.eye(CONTROLS * stages, matrix.shape[1])])
+        limits += (np.zeros(CONTROLS * stages),)
+        weights += (np.tile(2.0 * program.control_norm, stages),)
+    return matrix, np.concatenate(limits), np.concatenate(weights)
 
 
 def sparse_program(program: Program, stages: int, start: np.ndarray) -> SparseProgram:
@@ -136,6 +138,13 @@ def sparse_program(program: Program, stages: int, start: np.ndarray) -> SparsePr
     )
 
 
+def timed(solve: Callable[[], Result]) -> tuple[Result, float]:
+    """What a call returns, and its processor seconds."""
+    begin = time.process_time()
+    result = solve()
+    return result, time.process_time() - begin
+
+
 def _answer(data: SparseProgram, solved: bool, z: Any, iterations: int, seconds: float) -> Answer:
     controls = np.asarray(z)[: CONTROLS * data.stages].reshape(-1, CONTROLS)
     return Answer(solved, controls, iterations, seconds)
@@ -154,11 +163,10 @@ def piqp(data: SparseProgram, tolerance: float) -> Answer:
         data.quadratic, data.linear, data.equalities, data.equal_to, data.inequalities, minus,
         data.at_most, data.lower, data.upper,
     )  # fmt: skip
-    begin = time.process_time()
-    status = solver.solve()
-    seconds = time.process_time() - begin
-    solved = status == library.PIQP_SOLVED
-    return _answer(data, solved, solver.result.x, solver.result.info.iter, seconds)
+    status, seconds = timed(solver.solve)
+    return _answer(
+        data, status == library.PIQP_SOLVED, solver.result.x, solver.result.info.iter, seconds
+    )
 
 
 def _cone_rows(data: SparseProgram) -> tuple[sparse.csc_matrix, np.ndarray]:
@@ -185,9 +193,7 @@ def clarabel(data: SparseProgram, tolerance: float) -> Answer:
         [library.ZeroConeT(len(data.equal_to)), library.NonnegativeConeT(len(limits))],
         settings,
     )
-    begin = time.process_time()
-    solution = solver.solve()
-    seconds = time.process_time() - begin
+    solution, seconds = timed(solver.solve)
     solved = solution.status == library.SolverStatus.Solved
     return _answer(data, solved, solution.x, solution.iterations, seconds)
 
@@ -209,9 +215,7 @@ def osqp(data: SparseProgram, tolerance: float) -> Answer:
         max_iter=100000,
         verbose=False,
     )
-    begin = time.process_time()
-    result = solver.solve(raise_error=False)
-    seconds = time.process_time() - begin
+    result, seconds = timed(lambda: solver.solve(raise_error=False))
     solved = result.info.status == "solved"
     return _answer(data, solved, result.x, result.info.iter, seconds)
 
@@ -227,29 +231,27 @@ def daqp(
 
     data = sparse_program(program, stages, start)
     controls, states = CONTROLS * stages, STATES * stages
+    u, x = slice(0, controls), slice(controls, controls + states)
+    # the states, x = at_rest + reach u
     free = np.linalg.solve(
-        data.equalities[:, controls : controls + states].toarray(),
-        np.column_stack([data.equal_to, -data.equalities[:, :controls].toarray()]),
+        data.equalities[:, x].toarray(),
+        np.column_stack([data.equal_to, -data.equalities[:, u].toarray()]),
     )
     at_rest, reach = free[:, 0], free[:, 1:]
-    inner = data.quadratic[controls : controls + states, controls : controls + states].toarray()
+    inner = data.quadratic[x, x].toarray()
     weights = data.linear[controls + states :]
-    soft = weights != hard_weight
-    excesses = int(soft.sum())
+    soft = np.flatnonzero(weights != hard_weight)
+    excesses = len(soft)
     hessian = np.zeros((controls + excesses, controls + excesses))
-    hessian[:controls, :controls] = (
-        data.quadratic[:controls, :controls].toarray() + reach.T @ inner @ reach
+    hessian[u, u] = data.quadratic[u, u].toarray() + reach.T @ inner @ reach
+    gradient = np.concatenate(
+        [data.linear[u] + reach.T @ (data.linear[x] + inner @ at_rest), weights[soft]]
     )
-    gradient = np.zeros(controls + excesses)
-    gradient[:controls] = data.linear[:controls] + reach.T @ (
-        data.linear[controls : controls + states] + inner @ at_rest
-    )
-    gradient[controls:] = weights[soft]
     rows = data.inequalities[:, : controls + states].toarray()
     matrix = np.zeros((len(weights), controls + excesses))
-    matrix[:, :controls] = rows[:, :controls] + rows[:, controls:] @ reach
-    matrix[np.flatnonzero(soft), controls + np.arange(excesses)] = -1.0
-    limits = data.at_most - rows[:, controls:] @ at_rest
+    matrix[:, u] = rows[:, u] + rows[:, x] @ reach
+    matrix[soft, controls + np.arange(excesses)] = -1.0
+    limits = data.at_most - rows[:, x] @ at_rest
     infinite = 1e30
     upper = np.concatenate([np.ones(controls), np.full(excesses, infinite), limits])
     lower = np.concatenate(
@@ -261,22 +263,15 @@ def daqp(
     return _answer(data, flag == 1, x, info["iterations"], info["setup_time"] + info["solve_time"])
 
 
-def hpipm(program: Program, stages: int, start: np.ndarray, tolerance: float) -> Answer:
-    """HPIPM: a Riccati-based interior-point method, through its C interface."""
-    solver = hpipm_library.Solver(program, stages, start, tolerance)
-    solved, controls, iterations, seconds = solver.solve()
-    return Answer(solved, controls, iterations, seconds)
-
-
 def own(program: Program, stages: int, start: np.ndarray, tolerance: float) -> Answer:
     """The stage-wise solver of this package, timed as in the loop: called from compiled code."""
     planes = program.normals.shape[1]
     work = workspace(stages, planes, len(program.components))
-    status, iterations = solve(program, stages, start, work, tolerance, OWN_LIMIT)
-    begin = time.process_time()
-    _solve_again(program, stages, start, work, tolerance, REPETITIONS)
-    seconds = (time.process_time() - begin) / REPETITIONS
-    return Answer(status == SOLVED, work.controls[:stages].copy(), iterations, seconds)
+    solution = solve(program, stages, start, work, tolerance, OWN_LIMIT)
+    again = (program, stages, start, work, tolerance, REPETITIONS)
+    _, seconds = timed(lambda: _solve_again(*again))
+    solved, controls = solution.status == SOLVED, solution.controls.copy()
+    return Answer(solved, controls, solution.iterations, seconds / REPETITIONS)
 
 
 @compiled

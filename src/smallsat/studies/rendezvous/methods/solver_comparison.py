@@ -1,4 +1,4 @@
-"""The same programs, sampled from closed loops, solved by all back ends."""
+"""The same programs, sampled from closed loops, solved by all QP solvers."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -7,11 +7,13 @@ import numpy as np
 import pandas as pd
 
 from smallsat.optimal_control.riccati_interior_point import Program
+from smallsat.studies.rendezvous.guidance.controller import TOLERANCE
 from smallsat.studies.rendezvous.guidance.law import PHASES, Law, settings
-from smallsat.studies.rendezvous.guidance.phase_programs import program_room, write_program
-from smallsat.studies.rendezvous.methods import qp_solvers as back_ends
+from smallsat.studies.rendezvous.guidance.phase_programs import empty_program, write_program
+from smallsat.studies.rendezvous.methods import qp_solvers
+from smallsat.studies.rendezvous.methods.hpipm import hpipm
 from smallsat.studies.rendezvous.methods.qp_solvers import Answer
-from smallsat.studies.rendezvous.simulation.closed_loop import TOLERANCE, manoeuvres
+from smallsat.studies.rendezvous.simulation.closed_loop import simulate
 
 
 @dataclass(frozen=True)
@@ -30,7 +32,7 @@ Solve = Callable[[Sample], Answer]
 
 def _sparse(solve: Callable[..., Answer], tolerance: float) -> Solve:
     return lambda sample: solve(
-        back_ends.sparse_program(sample.program, sample.stages, sample.start), tolerance
+        qp_solvers.sparse_program(sample.program, sample.stages, sample.start), tolerance
     )
 
 
@@ -39,15 +41,15 @@ def _staged(solve: Callable[..., Answer], tolerance: float) -> Solve:
 
 
 # Each at a tolerance at which it still converges as a rule; OSQP's is its usual one.
-BACK_ENDS: dict[str, Solve] = {
-    "stage-wise": _staged(back_ends.own, TOLERANCE),
-    "HPIPM": _staged(back_ends.hpipm, 1e-8),
-    "PIQP": _sparse(back_ends.piqp, 1e-9),
-    "Clarabel": _sparse(back_ends.clarabel, 1e-8),
-    "DAQP": lambda sample: back_ends.daqp(
+QP_SOLVERS: dict[str, Solve] = {
+    "stage-wise": _staged(qp_solvers.own, TOLERANCE),
+    "HPIPM": _staged(hpipm, 1e-8),
+    "PIQP": _sparse(qp_solvers.piqp, 1e-9),
+    "Clarabel": _sparse(qp_solvers.clarabel, 1e-8),
+    "DAQP": lambda sample: qp_solvers.daqp(
         sample.program, sample.stages, sample.start, sample.hard_weight, 1e-9
     ),
-    "OSQP": _sparse(back_ends.osqp, 1e-4),
+    "OSQP": _sparse(qp_solvers.osqp, 1e-4),
 }
 NOT_FOR_LP = {"HPIPM", "DAQP"}
 
@@ -69,19 +71,19 @@ def samples(laws: dict[str, Law], starts: np.ndarray, count: int) -> list[Sample
         record = settings([law])[0]
         linear = law.norm_weights is not None
         phases = (0, 0) if linear else (0, 2)
-        flown = manoeuvres([law], starts, phases=phases, with_steps=True)
+        simulated = simulate([law], starts, phases, with_steps=True)
         for phase in range(phases[1] + 1):
             steps = [
                 (r.state[k], r.time[k])
-                for r in flown.records
+                for r in map(simulated.record, range(len(starts)))
                 for k in np.flatnonzero(r.phase == phase)
             ]
             # Of a phase that no manoeuvre comes to there are none.
             chosen = np.unique(np.linspace(0, max(len(steps) - 1, 0), count).astype(int))
             chosen = chosen[: len(steps)]
             for state, time in (steps[k] for k in chosen):
-                room = program_room(int(record["horizons"][phase]))
-                program, _ = write_program(record, phase, state, time, room)
+                empty = empty_program(int(record["horizons"][phase]))
+                program, _ = write_program(record, phase, state, time, empty)
                 found.append(
                     Sample(
                         f"{PHASES[phase]} ({name})",
@@ -94,29 +96,29 @@ def samples(laws: dict[str, Law], starts: np.ndarray, count: int) -> list[Sample
     return found
 
 
-def compare(given: list[Sample]) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Answers of all back ends, one row a program and back end; and their seconds.
+def compare(programs: list[Sample]) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Answers of all QP solvers, one row a program and solver; and their seconds.
 
     Returns
     -------
     pandas.DataFrame
         ``program``, ``kind``, ``back_end``, ``solved``, ``iterations``; ``cost_error``, by how much
-        the cost exceeds the least of the other back ends', as a share of what the best control
+        the cost exceeds the least of the other solvers', as a share of what the best control
         saves; ``control_error``, the first control's largest difference from that one's, in bounds.
     pandas.DataFrame
         ``program``, ``kind``, ``back_end``, ``seconds``.
     """
     rows, seconds = [], []
-    if given:
-        BACK_ENDS["stage-wise"](given[0])  # compiles
-    for number, sample in enumerate(given):
+    if programs:
+        QP_SOLVERS["stage-wise"](programs[0])  # compiles
+    for number, sample in enumerate(programs):
         answers = {
             name: solve(sample)
-            for name, solve in BACK_ENDS.items()
+            for name, solve in QP_SOLVERS.items()
             if not (name in NOT_FOR_LP and sample.program.control_norm[0] > 0.0)
         }
         costs = {
-            name: back_ends.cost(sample.program, sample.stages, sample.start, answer.controls)
+            name: qp_solvers.cost(sample.program, sample.stages, sample.start, answer.controls)
             for name, answer in answers.items()
             if answer.solved
         }
@@ -145,11 +147,11 @@ def compare(given: list[Sample]) -> tuple[pd.DataFrame, pd.DataFrame]:
 
 def _cost_at_rest(sample: Sample) -> float:
     controls = np.zeros((sample.stages, 3))
-    return back_ends.cost(sample.program, sample.stages, sample.start, controls)
+    return qp_solvers.cost(sample.program, sample.stages, sample.start, controls)
 
 
 def summary(answers: pd.DataFrame) -> pd.DataFrame:
-    """By kind and back end: programs, share solved, iterations and errors of the solved ones."""
+    """By kind and solver: programs, share solved, iterations and errors of the solved ones."""
     solved = answers[answers["solved"]]
     groups = solved.groupby(["kind", "back_end"], sort=False)
     table = groups.agg(
@@ -168,7 +170,7 @@ def summary(answers: pd.DataFrame) -> pd.DataFrame:
 
 
 def seconds_summary(seconds: pd.DataFrame) -> pd.DataFrame:
-    """Median and 99th percentile of the seconds by kind and back end."""
+    """Median and 99th percentile of the seconds by kind and solver."""
     groups = seconds.groupby(["kind", "back_end"], sort=False)["seconds"]
     return (
         groups.quantile(np.array([0.5, 0.99]))

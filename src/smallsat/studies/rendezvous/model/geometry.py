@@ -1,15 +1,21 @@
-"""Approach cones and keep-out planes in the target's frame."""
+"""Approach cones and keep-out planes in the target's Hill frame (section 3.1).
+
+Positions are in metres, velocities in m/s, x radial, y along the orbit, z normal to it.
+"""
 
 import numpy as np
 
 from smallsat.dynamics.compiled import compiled
 
-DEGENERATE = 1e-9
+# Which way the keep-out planes turn where the approach axis is out of their reach: the short way,
+# that of the natural relative motion (clockwise as seen from the orbit's normal), or the chaser's.
+SHORTEST, NATURAL, CURRENT = 0, 1, 2
+DEGENERATE = 1e-9  # sine of the angle between chaser and axis, below which they are one line
 
 
 @compiled
 def rotated(axis, angle, out):
-    """An axis turned about z by an angle, rad."""
+    """Fill an axis (3,) turned about z by an angle, rad."""
     c, s = np.cos(angle), np.sin(angle)
     out[0] = c * axis[0] - s * axis[1]
     out[1] = s * axis[0] + c * axis[1]
@@ -18,10 +24,10 @@ def rotated(axis, angle, out):
 
 @compiled
 def cone_faces(axis, tangent, out):
-    """Normals of the four faces of a cone about an axis in the orbit's plane, (4, 3).
+    """Fill the outward normals (4, 3) of the faces of a cone about an axis in the orbit's plane.
 
     The cone is Hx <= 0 (3.3) with unit rows, so that Hx is a distance from a face in metres. Two
-    faces stand on the orbit's plane, two are inclined to it.
+    faces stand on the orbit's plane, two are inclined to it. ``tangent`` is that of the half angle.
     """
     norm = 1.0 / np.sqrt(1.0 + tangent * tangent)
     for face in range(4):
@@ -36,8 +42,9 @@ def cone_faces(axis, tangent, out):
 
 
 @compiled
-def in_cone(position, axis, tangent, faces):
-    """Whether a position lies in the cone with its tip at the target."""
+def in_cone(position, axis, tangent):
+    """Whether a position (3,), m, lies in the cone with its tip at the target."""
+    faces = np.empty((4, 3))
     cone_faces(axis, tangent, faces)
     for face in range(4):
         total = 0.0
@@ -50,12 +57,11 @@ def in_cone(position, axis, tangent, faces):
 
 @compiled
 def keep_out_normals(position, velocity, axis, steps, largest_angle, rule, out):
-    """Outward normals of the rotating keep-out plane, (steps + 1, 3) (3.5, 3.6).
+    """Fill the outward normals of the rotating keep-out plane, (steps + 1, 3) (3.5, 3.6).
 
     The first normal points at the chaser. The last lies on the axis if equal turns of at most
-    `largest_angle` reach it; then the planes turn the short way. Otherwise they turn by the
-    largest angle: the short way (rule 0), the way that the natural relative motion takes, which is
-    clockwise in the orbit's plane as seen from its normal (1), or the chaser's own way (2).
+    `largest_angle`, rad, reach it; then the planes turn the short way. Otherwise they turn by the
+    largest angle, in the direction of the rule: `SHORTEST`, `NATURAL` or `CURRENT`.
     """
     radius = np.sqrt(position[0] ** 2 + position[1] ** 2 + position[2] ** 2)
     first = position / radius
@@ -70,9 +76,9 @@ def keep_out_normals(position, velocity, axis, steps, largest_angle, rule, out):
     if turn > largest_angle:
         turn = largest_angle
         along = 0.0
-        if rule == 1:
+        if rule == NATURAL:
             along = tangent[0] * first[1] - tangent[1] * first[0]
-        elif rule == 2:
+        elif rule == CURRENT:
             along = tangent[0] * velocity[0] + tangent[1] * velocity[1] + tangent[2] * velocity[2]
         if along < 0.0:
             turn = -turn

@@ -40,10 +40,9 @@ class FilterModel(NamedTuple):
 
 
 @compiled
-def begin(measurement, model, estimate, covariance):
-    """Fill the estimate (6,) and its covariance (6, 6) from a first measurement (6,)."""
+def begin(model, covariance):
+    """Fill the covariance (6, 6) of a first measurement, which is the first estimate."""
     for i in range(6):
-        estimate[i] = measurement[i]
         for j in range(6):
             covariance[i, j] = 0.0
         covariance[i, i] = model.position_error**2 if i < 3 else model.velocity_error**2

@@ -30,11 +30,3 @@ def thrust_acceleration(delta_v, mass, force, acceleration):
     """Fill the acceleration (3,), m/s^2, of burning thrusters, with the signs of ``delta_v``."""
     for axis in range(3):
         acceleration[axis] = force / mass if delta_v[axis] >= 0.0 else -force / mass
-
-
-@compiled
-def realised(delta_v, mass, force, minimum_on_time, impulse):
-    """Fill the velocity change (3,), m/s, of impulsive thrusters: all but what is too small."""
-    for axis in range(3):
-        wanted = mass * abs(delta_v[axis]) / force
-        impulse[axis] = delta_v[axis] if wanted >= minimum_on_time else 0.0

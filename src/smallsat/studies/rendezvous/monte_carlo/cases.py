@@ -12,10 +12,11 @@ import numpy as np
 
 from smallsat.config import Config
 from smallsat.studies.rendezvous.guidance.law import Law
+from smallsat.studies.rendezvous.model.environment import orbit_radius
 from smallsat.studies.rendezvous.model.prediction_j2 import schweighart_sedwick
 from smallsat.studies.rendezvous.parameters import law
-from smallsat.studies.rendezvous.simulation.disturbances import disturbances, truth_radius
-from smallsat.studies.rendezvous.simulation.disturbed_loop import Disturbances
+from smallsat.studies.rendezvous.simulation.disturbances import disturbed_motion
+from smallsat.studies.rendezvous.simulation.motion import NonlinearMotion
 
 PHASES = ("rendezvous", "approach", "docking")
 # Names that others look for.
@@ -27,7 +28,7 @@ MINUTE = 60.0
 
 @dataclass(frozen=True)
 class Case:
-    """One case of a study.
+    """One case of a Monte Carlo study.
 
     Attributes
     ----------
@@ -37,8 +38,8 @@ class Case:
         The guidance law flown.
     phases
         First and last phase flown, 0 to 2.
-    world
-        What the law does not know; ``None``: the linear motion that it predicts.
+    motion
+        What the law guides; ``None``: the linear motion that it predicts.
     runs
         From each initial state.
     """
@@ -46,7 +47,7 @@ class Case:
     name: str
     law: Law
     phases: tuple[int, int] = (0, 2)
-    world: Disturbances | None = None
+    motion: NonlinearMotion | None = None
     runs: int = 1
 
 
@@ -168,15 +169,15 @@ def _prediction(section: Config) -> list[Case]:
     for inclination in section["studies"]["prediction"]["inclinations_deg"]:
         tilted = section | {"truth": section["truth"] | {"inclination_deg": inclination}}
         given = base(tilted)
-        world = disturbances(tilted, given, thrust_error=False, measurement_error=False)
+        motion = disturbed_motion(tilted, given, thrust_error=False, measurement_error=False)
         matrix = schweighart_sedwick(
-            given.mean_motion, float(np.radians(inclination)), truth_radius(given)
+            given.mean_motion, float(np.radians(inclination)), orbit_radius(given.mean_motion)
         )
         for model, flown in (
             (CLOHESSY_WILTSHIRE, given),
             (SCHWEIGHART_SEDWICK, given.with_(prediction=matrix)),
         ):
-            found.append(Case(prediction_case(model, inclination), flown, world=world))
+            found.append(Case(prediction_case(model, inclination), flown, motion=motion))
     return found
 
 
@@ -185,25 +186,25 @@ def _robustness(section: Config) -> list[Case]:
     given, settings = base(section), section["studies"]["robustness"]
     few = settings["variant_runs"]
     return [
-        Case(UNDISTURBED, given, world=disturbances(section, given, False, False)),
-        Case(AS_DOCUMENTED, given, world=disturbances(section, given), runs=settings["runs"]),
+        Case(UNDISTURBED, given, motion=disturbed_motion(section, given, False, False)),
+        Case(AS_DOCUMENTED, given, motion=disturbed_motion(section, given), runs=settings["runs"]),
         Case(
             "thrust error alone",
             given,
-            world=disturbances(section, given, measurement_error=False),
+            motion=disturbed_motion(section, given, measurement_error=False),
             runs=few,
         ),
         Case(
             "measurement error alone",
             given,
-            world=disturbances(section, given, thrust_error=False),
+            motion=disturbed_motion(section, given, thrust_error=False),
             runs=few,
         ),
-        Case(FILTERED, given, world=disturbances(section, given, filtered=True), runs=few),
+        Case(FILTERED, given, motion=disturbed_motion(section, given, filtered=True), runs=few),
         Case(
             "burns in place of impulses",
             given,
-            world=disturbances(section, given, burns=True),
+            motion=disturbed_motion(section, given, burns=True),
             runs=few,
         ),
     ]
@@ -217,9 +218,8 @@ def _passages(section: Config) -> list[Case]:
         switch_distances=in_phase(given.switch_distances, 2, min(settings["distances_m"])),
         time_limit=MINUTE * max(settings["limits_min"]),
     )
-    return [
-        Case("passages", farthest, world=disturbances(section, farthest), runs=settings["runs"])
-    ]
+    motion = disturbed_motion(section, farthest)
+    return [Case("passages", farthest, motion=motion, runs=settings["runs"])]
 
 
 # Each group is one table of results, flown in shards.

@@ -7,8 +7,8 @@ import pandas as pd
 
 from smallsat.config import Config
 from smallsat.statistics.random_streams import stream
+from smallsat.studies.rendezvous.model.columns import STATE
 from smallsat.studies.rendezvous.monte_carlo.cases import base
-from smallsat.studies.rendezvous.monte_carlo.tables import STATE
 
 # How the direction is drawn, which the thesis does not say. What it says of the positions is in
 # terms of the orbit's plane alone: quadrants, the half-plane of the docking port, and a plot of x
@@ -80,14 +80,6 @@ def quadrant(states: np.ndarray) -> np.ndarray:
     return np.minimum((angle // (0.5 * np.pi)).astype(int), 3) + 1
 
 
-def inside(states: np.ndarray, radius: float) -> np.ndarray:
-    """Which states (n, 6) lie within a distance, m, of the target: boolean, shape (n,).
-
-    With the keep-out radius these are starts where the keep-out planes cannot hold at first.
-    """
-    return np.linalg.norm(states[:, :3], axis=1) < radius
-
-
 def distribution(section: Config) -> Distribution:
     """The distribution that the configuration's ``studies`` describe."""
     settings = section["studies"]
@@ -99,7 +91,7 @@ def states_table(section: Config, count: int, seed: int) -> pd.DataFrame:
     """Initial states of a study, one a row, with distance, m, and quadrant."""
     drawn = initial_states(count, seed, distribution(section), base(section).mean_motion)
     table = pd.DataFrame({"sample": np.arange(count, dtype=np.int32)})
-    table[list(STATE)] = drawn
+    table[STATE] = drawn
     table["distance_m"] = np.linalg.norm(drawn[:, :3], axis=1)
     table["quadrant"] = quadrant(drawn).astype(np.int8)
     return table

@@ -1,4 +1,4 @@
-"""Flying the cases of a study from many initial states, into the rows of `study_tables`."""
+"""Simulating the cases of a study from many initial states, into the rows of `tables`."""
 
 import sys
 import time
@@ -9,30 +9,40 @@ import pandas as pd
 
 from smallsat.config import Config
 from smallsat.statistics.random_streams import stream
+from smallsat.studies.rendezvous.model.columns import STATE
 from smallsat.studies.rendezvous.monte_carlo.cases import MINUTE, PHASES, Case
 from smallsat.studies.rendezvous.monte_carlo.tables import (
     PASSAGES,
     SCHEMA,
-    STATE,
     column,
     empty_rows,
     end_columns,
 )
-from smallsat.studies.rendezvous.simulation.closed_loop import Manoeuvres, manoeuvres
-from smallsat.studies.rendezvous.simulation.disturbed_loop import disturbed_manoeuvres
+from smallsat.studies.rendezvous.simulation.closed_loop import (
+    AXES,
+    NORM,
+    PLANES,
+    Manoeuvres,
+    simulate,
+)
 
 # Manoeuvres between two lines of progress.
 CHUNK = 50
 # More runs than any state has, so that each run has a stream of its own, whatever their number.
 RUNS = 1_000_000
-# Sums of the loops, in their order, by the names that the configuration has for them.
-READINGS = {"2-norm": "delta_v", "1-norm": "delta_v_axes", "plane and normal": "delta_v_planes"}
+# How delta-v is added up, by the names that the configuration has for it: for `Passages`, and the
+# field of `Manoeuvres`.
+READINGS = {
+    "2-norm": (NORM, "delta_v"),
+    "1-norm": (AXES, "delta_v_axes"),
+    "plane and normal": (PLANES, "delta_v_planes"),
+}
 
 
-def fly_cases(
+def simulate_cases(
     section: Config, cases: Sequence[Case], starts: Sequence[pd.DataFrame]
 ) -> pd.DataFrame:
-    """Fly every case from its starts; progress goes to the standard error stream.
+    """Simulate every case from its starts; progress goes to the standard error stream.
 
     Parameters
     ----------
@@ -41,38 +51,48 @@ def fly_cases(
     cases
         Of a group.
     starts
-        One table a case: ``sample``, ``run``, and the relative state, LVLH, m and m/s.
+        One table a case: ``sample``, ``run``, and the relative state in the Hill frame, m and m/s.
+
+    Returns
+    -------
+    pandas.DataFrame
+        One row a manoeuvre, with the columns of `tables.SCHEMA`.
     """
     parts = [pd.DataFrame(empty_rows(0))[SCHEMA.names]]
     for number, (case, table) in enumerate(zip(cases, starts, strict=True), start=1):
         for chunk in _chunks(table, f"case {number} of {len(cases)}, {case.name}"):
-            flown = _fly(section, case, chunk)
+            found = simulate(
+                [case.law],
+                chunk[STATE].to_numpy(),
+                case.phases,
+                case.motion,
+                None if case.motion is None else generators(section, chunk),
+            )
             rows = empty_rows(len(chunk))
             rows["case"][:] = case.name
             rows["sample"][:] = chunk["sample"]
             rows["run"][:] = chunk["run"]
-            fill(rows, flown, READINGS[section["inferred"]["readings"]["delta_v"]])
+            fill(rows, found, READINGS[section["inferred"]["readings"]["delta_v"]][1])
             parts.append(pd.DataFrame(rows)[SCHEMA.names])
     return pd.concat(parts, ignore_index=True).astype(parts[0].dtypes)
 
 
-def fly_passages(section: Config, case: Case, starts: pd.DataFrame) -> pd.DataFrame:
-    """Fly one case and read off what it is with each docking distance and time limit."""
+def simulate_passages(section: Config, case: Case, starts: pd.DataFrame) -> pd.DataFrame:
+    """Simulate one case and read off what it is with each docking distance and time limit."""
     settings = section["studies"]["passages"]
     distances, limits = settings["distances_m"], settings["limits_min"]
     parts = [_outcomes(np.empty((0, 8)))]
     for chunk in _chunks(starts, case.name):
-        assert case.world is not None
-        _, passed = disturbed_manoeuvres(
-            case.law,
-            chunk[list(STATE)].to_numpy(),
-            case.world,
-            generators(section, chunk),
+        passed = simulate(
+            [case.law],
+            chunk[STATE].to_numpy(),
             case.phases,
-            distances,
-            [MINUTE * limit for limit in limits],
-            list(READINGS).index(section["inferred"]["readings"]["delta_v"]),
-        )
+            case.motion,
+            generators(section, chunk),
+            distances=distances,
+            limits=[MINUTE * limit for limit in limits],
+            reading=READINGS[section["inferred"]["readings"]["delta_v"]][0],
+        ).passages
         rows = []
         for m in range(len(chunk)):
             ids = chunk["sample"].iloc[m], chunk["run"].iloc[m]
@@ -101,34 +121,24 @@ def generators(section: Config, starts: pd.DataFrame) -> list[np.random.Generato
     ]
 
 
-def _fly(section: Config, case: Case, starts: pd.DataFrame) -> Manoeuvres:
-    states = starts[list(STATE)].to_numpy()
-    if case.world is None:
-        return manoeuvres([case.law], states, case.phases)
-    flown, _ = disturbed_manoeuvres(
-        case.law, states, case.world, generators(section, starts), case.phases
-    )
-    return flown
+def fill(rows: dict[str, np.ndarray], found: Manoeuvres, reading: str) -> None:
+    """Write manoeuvres into columns of `tables.empty_rows`, in place.
 
-
-def fill(rows: dict[str, np.ndarray], flown: Manoeuvres, reading: str) -> None:
-    """Write what was flown into columns of `study_tables.empty_rows`, in place.
-
-    ``reading`` is one of the values of `READINGS`.
+    ``reading`` is the field of `Manoeuvres` that the configuration calls delta-v.
     """
-    rows["completed"][:] = flown.docked
-    rows["end_phase"][:] = 1 + np.argmax(flown.end_times, axis=1)
+    rows["completed"][:] = found.docked
+    rows["end_phase"][:] = 1 + np.argmax(found.end_times, axis=1)
     for k, phase in enumerate(PHASES):
         for name in ("steps", "softened", "outside", "failed"):
-            rows[column(phase, name)][:] = getattr(flown, name)[:, k]
-        before = flown.end_times[:, :k].max(axis=1, initial=0.0)
-        there = flown.steps[:, k] > 0
-        rows[column(phase, "time_s")][there] = (flown.end_times[:, k] - before)[there]
-        rows[column(phase, "delta_v_m_s")][:] = getattr(flown, reading)[:, k]
-        rows[column(phase, "norm_delta_v_m_s")][:] = flown.delta_v[:, k]
-        rows[column(phase, "axes_delta_v_m_s")][:] = flown.delta_v_axes[:, k]
+            rows[column(phase, name)][:] = getattr(found, name)[:, k]
+        before = found.end_times[:, :k].max(axis=1, initial=0.0)
+        there = found.steps[:, k] > 0
+        rows[column(phase, "time_s")][there] = (found.end_times[:, k] - before)[there]
+        rows[column(phase, "delta_v_m_s")][:] = getattr(found, reading)[:, k]
+        rows[column(phase, "norm_delta_v_m_s")][:] = found.delta_v[:, k]
+        rows[column(phase, "axes_delta_v_m_s")][:] = found.delta_v_axes[:, k]
         for j, name in enumerate(end_columns(phase)):
-            rows[name][:] = flown.ends[:, k, j]
+            rows[name][:] = found.ends[:, k, j]
 
 
 def _outcomes(rows: np.ndarray) -> pd.DataFrame:

@@ -7,9 +7,9 @@ import pandas as pd
 import pyarrow as pa
 
 from smallsat.errors import InputError
+from smallsat.studies.rendezvous.model.columns import STATE
 from smallsat.studies.rendezvous.monte_carlo.cases import PHASES
 
-STATE = ("x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s")
 # What each phase flown has; a phase not flown has no steps, no time, and no end.
 COUNTS = ("steps", "softened", "outside", "failed")
 SUMS = ("time_s", "delta_v_m_s", "norm_delta_v_m_s", "axes_delta_v_m_s")
@@ -22,7 +22,7 @@ def column(phase: str, quantity: str) -> str:
 
 
 def end_columns(phase: str) -> list[str]:
-    """Columns of the relative state in which a phase ended, LVLH, m and m/s."""
+    """Columns of the relative state in which a phase ended, in the Hill frame, m and m/s."""
     return [column(phase, f"end_{name}") for name in STATE]
 
 

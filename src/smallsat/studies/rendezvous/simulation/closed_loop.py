@@ -1,41 +1,53 @@
-"""The three-phase guidance law (Algorithm 1) in closed loop with the motion that it guides.
+"""The guidance law in closed loop with the motion that it guides.
 
-Errata of Algorithm 1: the far range ends where Hx <= 0 (not x <= Hx) and, since the keep-out
-forbids |x| <= r1, within a margin of r1; the other phases end by a distance, not by x <= r.
+One loop for all motions (see `smallsat.studies.rendezvous.simulation.motion`): the linear one that
+the law predicts, the nonlinear one, and that with the disturbances of chapter 5, of which the law
+knows a measured or filtered state only. By Algorithm 1 that estimate also decides when a phase
+ends.
 """
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from smallsat.dynamics.compiled import compiled
-from smallsat.optimal_control.riccati_interior_point import SOLVED, solve, workspace
-from smallsat.studies.rendezvous.guidance.law import Law, settings
-from smallsat.studies.rendezvous.guidance.phase_programs import (
-    BOUNDS,
-    PLANES,
-    program_room,
-    write_program,
+from smallsat.optimal_control.riccati_interior_point import SOLVED
+from smallsat.studies.rendezvous.guidance.controller import (
+    memory_for,
+    next_control,
+    phase_ended,
+    port_distance,
 )
-from smallsat.studies.rendezvous.model.geometry import in_cone, rotated
+from smallsat.studies.rendezvous.guidance.law import DOCKING, RENDEZVOUS, Law, settings
+from smallsat.studies.rendezvous.simulation.motion import (
+    NonlinearMotion,
+    apply_transition,
+    begin,
+    coast,
+    first_error,
+    first_estimate,
+    next_error,
+    next_estimate,
+    push,
+    relative,
+)
 
-TOLERANCE = 1e-10  # of the solver, relative
-ITERATION_LIMIT = 100
-SOFTENED = 1e-5  # scaled excess of a hard row that counts as having given way
+# How the velocity changes of a manoeuvre are added up, see `Manoeuvres`.
+NORM, AXES, PLANES = 0, 1, 2
 
 
-@dataclass(frozen=True)
-class Steps:
-    """What happened at each step of one manoeuvre, K steps.
+class Steps(NamedTuple):
+    """What happened at each step: K steps of one manoeuvre, or (M, K) before `Manoeuvres.record`.
 
     Attributes
     ----------
     time, phase
         At the start of the step, s; 0, 1 or 2.
     state
-        Relative state before the control, (K, 6), m and m/s.
+        True relative state before the control, (K, 6), m and m/s.
     impulse
-        Velocity change, (K, 3), m/s.
+        Commanded velocity change, (K, 3), m/s.
     status, iterations
         Of the program.
     softened
@@ -54,8 +66,34 @@ class Steps:
     outside: np.ndarray
 
 
-@dataclass(frozen=True)
-class Manoeuvres:
+class Passages(NamedTuple):
+    """Where a manoeuvre that ends at the smallest distance and the longest limit passed others.
+
+    The control does not depend on either, so that one manoeuvre tells the outcome for all of them.
+
+    Attributes
+    ----------
+    reading
+        How delta-v is added up here: `NORM`, `AXES` or `PLANES`.
+    distances, limits
+        Docking distances, m, (D,), and time limits, s, (L,).
+    times, delta_v
+        When the docking phase first came within each distance, s, and the delta-v until then, m/s;
+        (M, D), not a number where it never did.
+    delta_v_at_limits
+        Delta-v of the steps that end by each limit, m/s, (M, L); not a number where the manoeuvre
+        ended before.
+    """
+
+    reading: int
+    distances: np.ndarray
+    limits: np.ndarray
+    times: np.ndarray
+    delta_v: np.ndarray
+    delta_v_at_limits: np.ndarray
+
+
+class Manoeuvres(NamedTuple):
     """Summary of M manoeuvres; arrays with a last axis of 3 are by phase.
 
     Attributes
@@ -68,7 +106,7 @@ class Manoeuvres:
         Sums of the velocity changes' 2-norms, of their 1-norms, and of their 2-norm in the orbit's
         plane plus what is normal to it, (M, 3), m/s.
     ends
-        State at the end of each phase, (M, 3, 6).
+        True relative state at the end of each phase, (M, 3, 6), m and m/s.
     end_times
         s, (M, 3).
     softened, outside, failed
@@ -76,8 +114,8 @@ class Manoeuvres:
         solved (the last plan's next control was taken instead), (M, 3).
     iterations
         Of the solver, (M, 3).
-    records
-        One `Steps` a manoeuvre, if asked for.
+    records, passages
+        Of all steps, if asked for; by other docking distances and time limits, if asked for.
     """
 
     docked: np.ndarray
@@ -91,193 +129,202 @@ class Manoeuvres:
     outside: np.ndarray
     failed: np.ndarray
     iterations: np.ndarray
-    records: list[Steps]
+    records: Steps
+    passages: Passages
+
+    def record(self, m: int) -> Steps:
+        """All steps of one manoeuvre."""
+        return Steps(*(array[m, : self.steps[m].sum()] for array in self.records))
 
 
-@compiled
-def phase_ended(law, phase, state, time, axis, faces):
-    """Whether a phase's end condition holds."""
-    rotated(law.axis, law.rotation_rate * time, axis)
-    tip = law.port if phase == 2 else 0.0
-    kind = law.switch_kinds[phase]
-    along, square = 0.0, 0.0
-    for k in range(3):
-        offset = state[k] - tip * axis[k]
-        along += offset * axis[k]
-        square += offset * offset
-    if phase == 0 and not in_cone(state, axis, law.tangents[0], faces):
-        return False
-    if kind == 0:
-        return True
-    if kind == 1:
-        return np.sqrt(square) <= law.switch_distances[phase]
-    return along <= law.switch_distances[phase]
-
-
-@compiled
-def next_control(law, phase, state, time, room, work, plan, place, command):
-    """The guidance law's control for a state.
-
-    Where the program is not solved, the control that the last solved plan of the phase has for now
-    is taken; where that plan is used up, none.
-
-    Parameters
-    ----------
-    law, phase, state, time
-        `SETTINGS` record; 0, 1 or 2; relative state, m and m/s; s.
-    room, work
-        Of `program_room` and `workspace`.
-    plan, place
-        Controls of the last solved plan, (N, 3), m/s, and its next one and their number, (2,); both
-        kept here from call to call. A phase begins with ``place[:] = 0``.
-    command
-        Receives the velocity change, (3,), m/s.
-
-    Returns
-    -------
-    int, int, int, bool
-        Status and iterations of the solver, hard rows that gave way, whether the start violated a
-        constraint.
-    """
-    stages = law.horizons[phase]
-    bound = law.control_bounds[phase]
-    program, outside = write_program(law, phase, state, time, room)
-    scaled = np.empty(6)
-    for k in range(6):
-        scaled[k] = state[k] / law.scales[phase, k]
-    status, iterations = solve(program, stages, scaled, work, TOLERANCE, ITERATION_LIMIT)
-    softened = 0
-    if status == SOLVED:
-        rows = stages * len(program.components)
-        for i in range(1, stages + 1):
-            rows += program.plane_count[i]
-        for r in range(rows):
-            if work.rows[1, r] == law.hard_weights[phase] and work.rows[4, r] > SOFTENED:
-                softened += 1
-        for i in range(stages):
-            for k in range(3):
-                plan[i, k] = bound * work.controls[i, k]
-        place[0], place[1] = 0, stages
-    command[:] = 0.0
-    if place[0] < place[1]:
-        command[:] = plan[place[0]]
-        place[0] += 1
-    return status, iterations, softened, outside
-
-
-@compiled
-def advance(matrix, state, out):
-    """State after a transition, into `out`."""
-    for j in range(6):
-        total = 0.0
-        for k in range(6):
-            total += matrix[j, k] * state[k]
-        out[j] = total
-
-
-@compiled
-def fly(law, start, first_phase, last_phase, room, work, counts, sums, ends, records):
-    """One manoeuvre with Clohessy-Wiltshire truth; fills `counts`, `sums`, `ends`, `records`.
-
-    Returns whether the last phase ended in time, and the number of steps.
-    """
-    state, moved = start.copy(), np.empty(6)
-    axis, faces = np.empty(3), np.empty((4, 3))
-    plan, place = np.empty(work.controls.shape), np.zeros(2, np.int64)
-    command = np.zeros(3)
-    time, step = 0.0, 0
-    for phase in range(first_phase, last_phase + 1):
-        place[:] = 0
-        while True:
-            if time + law.sample_times[phase] > law.time_limit:
-                return False, step
-            advance(law.predictions_before[phase], state, moved)
-            status, iterations, softened, outside = next_control(
-                law, phase, moved, time, room, work, plan, place, command
-            )
-            if len(records) > 0:
-                records[step, 0] = time
-                records[step, 1] = phase
-                records[step, 2:8] = state
-                records[step, 8:11] = command
-                records[step, 11] = status
-                records[step, 12] = iterations
-                records[step, 13] = softened
-                records[step, 14] = 1.0 if outside else 0.0
-            advance(law.drifts_before[phase], state, moved)
-            for k in range(3):
-                moved[3 + k] += command[k]
-            advance(law.drifts_after[phase], moved, state)
-            time += law.sample_times[phase]
-            step += 1
-            add_step(phase, command, status, iterations, softened, outside, counts, sums)
-            sums[3, phase] = time
-            ends[phase] = state
-            if phase_ended(law, phase, state, time, axis, faces):
-                break
-    return True, step
-
-
-@compiled
-def add_step(phase, impulse, status, iterations, softened, outside, counts, sums):
-    """Count one step in `counts` (5, 3) and add its velocity change, m/s, to `sums` (4, 3)."""
-    counts[0, phase] += 1
-    counts[1, phase] += 1 if softened > 0 else 0
-    counts[2, phase] += 1 if outside else 0
-    counts[3, phase] += 1 if status != SOLVED else 0
-    counts[4, phase] += iterations
-    level = np.sqrt(impulse[0] ** 2 + impulse[1] ** 2)
-    sums[0, phase] += np.sqrt(level**2 + impulse[2] ** 2)
-    sums[1, phase] += abs(impulse[0]) + abs(impulse[1]) + abs(impulse[2])
-    sums[2, phase] += level + abs(impulse[2])
-
-
-def manoeuvres(
-    laws: list[Law],
+def simulate(
+    laws: Sequence[Law],
     starts: np.ndarray,
-    phases: tuple[int, int] = (0, 2),
+    phases: tuple[int, int] = (RENDEZVOUS, DOCKING),
+    motion: NonlinearMotion | None = None,
+    generators: Sequence[np.random.Generator] | None = None,
     with_steps: bool = False,
+    distances: Sequence[float] = (),
+    limits: Sequence[float] = (),
+    reading: int = NORM,
 ) -> Manoeuvres:
-    """Fly one manoeuvre a start, each with its law (or all with the only one).
+    """Simulate one manoeuvre a start, each with its law (or all with the only one).
 
     Parameters
     ----------
     laws
         One, or as many as there are starts.
     starts
-        Relative states, (M, 6), m and m/s.
+        Relative states, (M, 6), m and m/s, in the Hill frame.
     phases
         First and last phase.
+    motion
+        Of all of them; ``None``: linear.
+    generators
+        Random stream of each manoeuvre; nonlinear motion needs them.
     with_steps
         Whether to keep records of all steps.
+    distances, limits, reading
+        Of `Passages`.
     """
-    records = settings(laws)
+    settings_of = settings(laws)
     starts = np.ascontiguousarray(np.atleast_2d(starts), dtype=float)
-    number = len(starts)
-    longest = int(records["horizons"].max())
-    room, work = program_room(longest), workspace(longest, PLANES, BOUNDS)
-    counts = np.zeros((number, 5, 3), np.int64)
-    sums, ends = np.zeros((number, 4, 3)), np.full((number, 3, 6), np.nan)
-    docked = np.zeros(number, bool)
-    kept = []
-    for m in range(number):
-        law = records[m % len(records)]
-        most = int(law["time_limit"] / law["sample_times"].min()) + 1 if with_steps else 0
-        steps = np.zeros((most, 15))
-        docked[m], used = fly(
-            law, starts[m], phases[0], phases[1], room, work, counts[m], sums[m], ends[m], steps
-        )
-        if with_steps:
-            kept.append(_steps(steps[:used]))
+    most = int((settings_of["time_limit"] / settings_of["sample_times"].min(axis=1)).max()) + 1
+    found = _nothing_yet(len(starts), most if with_steps else 0, distances, limits, reading)
+    memory = memory_for(int(settings_of["horizons"].max()))
+    for m, start in enumerate(starts):
+        law = settings_of[m % len(laws)]
+        generator = None if generators is None else generators[m]
+        _simulate(law, start, phases, motion, generator, memory, m, found)
+    return found
+
+
+def _nothing_yet(
+    count: int, steps: int, distances: Sequence[float], limits: Sequence[float], reading: int
+) -> Manoeuvres:
+    """The result for so many manoeuvres, with room for that many steps of each, to be filled."""
+
+    def number(*shape: int) -> np.ndarray:
+        return np.zeros((count, *shape), np.int64)
+
+    def value(*shape: int) -> np.ndarray:
+        return np.zeros((count, *shape))
+
+    def unknown(*shape: int) -> np.ndarray:
+        return np.full((count, *shape), np.nan)
+
     return Manoeuvres(
-        docked, counts[:, 0], sums[:, 0], sums[:, 1], sums[:, 2], ends, sums[:, 3],
-        counts[:, 1], counts[:, 2], counts[:, 3], counts[:, 4], kept,
-    )  # fmt: skip
+        docked=np.zeros(count, bool),
+        steps=number(3),
+        delta_v=value(3),
+        delta_v_axes=value(3),
+        delta_v_planes=value(3),
+        ends=unknown(3, 6),
+        end_times=value(3),
+        softened=number(3),
+        outside=number(3),
+        failed=number(3),
+        iterations=number(3),
+        records=Steps(
+            time=value(steps),
+            phase=number(steps),
+            state=value(steps, 6),
+            impulse=value(steps, 3),
+            status=number(steps),
+            iterations=number(steps),
+            softened=number(steps),
+            outside=np.zeros((count, steps), bool),
+        ),
+        passages=Passages(
+            reading,
+            np.array(distances, dtype=float),
+            np.array(limits, dtype=float),
+            unknown(len(distances)),
+            unknown(len(distances)),
+            unknown(len(limits)),
+        ),
+    )
 
 
-def _steps(table: np.ndarray) -> Steps:
-    whole = table[:, [1, 11, 12, 13]].astype(int)
-    return Steps(
-        table[:, 0], whole[:, 0], table[:, 2:8], table[:, 8:11],
-        whole[:, 1], whole[:, 2], whole[:, 3], table[:, 14] > 0,
-    )  # fmt: skip
+@compiled
+def _simulate(law, start, phases, motion, generator, memory, m, found):
+    """Simulate manoeuvre number `m` and fill its rows of `found`.
+
+    With nonlinear motion each step draws eight normal numbers whatever is disturbed, so that
+    variants have them in common.
+    """
+    pair = begin(motion, start)
+    estimate, covariance, expected = np.empty(6), np.empty((6, 6)), np.empty(6)
+    command, applied = np.zeros(3), np.zeros(3)
+    burn, on_times = np.zeros(3), np.zeros(3)
+    w, v = first_error(motion, generator)
+    state = relative(motion, pair)
+    first_estimate(motion, start, state, generator, estimate, covariance)
+    time, step = 0.0, 0
+    for phase in range(phases[0], phases[1] + 1):
+        duration, delay = law.sample_times[phase], law.delays[phase]
+        memory.remaining[0] = 0
+        while True:
+            _pass_limits(found, m, time + duration)
+            if time + duration > law.time_limit:
+                return
+            expected[:] = estimate
+            apply_transition(law.predictions_before[phase], expected)
+            control = next_control(law, phase, expected, time, memory, command)
+            if found.records.time.shape[1] > 0:
+                _record(found.records, m, step, time, phase, state, command, control)
+            on_times[:] = 0.0
+            coast(motion, pair, law.drifts_before[phase], time, delay, burn, on_times)
+            push(motion, pair, command, w, duration - delay, burn, on_times, applied)
+            coast(
+                motion, pair, law.drifts_after[phase], time + delay, duration - delay, burn,
+                on_times,
+            )  # fmt: skip
+            time += duration
+            step += 1
+            w, v = next_error(motion, phase, w, v, generator)
+            state = relative(motion, pair)
+            next_estimate(motion, phase, duration, command, state, generator, estimate, covariance)
+            _add_up(found, m, phase, applied, control)
+            found.end_times[m, phase] = time
+            found.ends[m, phase] = state
+            if phase == DOCKING:
+                _pass_distances(found, m, port_distance(law, estimate, time), time)
+            if phase_ended(law, phase, estimate, time):
+                break
+    found.docked[m] = True
+
+
+@compiled
+def _record(records, m, step, time, phase, state, command, control):
+    """Keep what one step begins with."""
+    records.time[m, step] = time
+    records.phase[m, step] = phase
+    records.state[m, step] = state
+    records.impulse[m, step] = command
+    records.status[m, step] = control.status
+    records.iterations[m, step] = control.iterations
+    records.softened[m, step] = control.softened
+    records.outside[m, step] = control.outside
+
+
+@compiled
+def _add_up(found, m, phase, impulse, control):
+    """Count one step and add its velocity change (3,), m/s."""
+    found.steps[m, phase] += 1
+    found.softened[m, phase] += 1 if control.softened > 0 else 0
+    found.outside[m, phase] += 1 if control.outside else 0
+    found.failed[m, phase] += 1 if control.status != SOLVED else 0
+    found.iterations[m, phase] += control.iterations
+    level = np.sqrt(impulse[0] ** 2 + impulse[1] ** 2)
+    found.delta_v[m, phase] += np.sqrt(level**2 + impulse[2] ** 2)
+    found.delta_v_axes[m, phase] += abs(impulse[0]) + abs(impulse[1]) + abs(impulse[2])
+    found.delta_v_planes[m, phase] += level + abs(impulse[2])
+
+
+@compiled
+def _spent(found, m):
+    """Return the delta-v so far, m/s, as `Passages` have it."""
+    if found.passages.reading == NORM:
+        return found.delta_v[m].sum()
+    if found.passages.reading == AXES:
+        return found.delta_v_axes[m].sum()
+    return found.delta_v_planes[m].sum()
+
+
+@compiled
+def _pass_limits(found, m, end):
+    """Note the delta-v at each time limit, s, that the step to come would end after."""
+    passages = found.passages
+    for i in range(len(passages.limits)):
+        if np.isnan(passages.delta_v_at_limits[m, i]) and end > passages.limits[i]:
+            passages.delta_v_at_limits[m, i] = _spent(found, m)
+
+
+@compiled
+def _pass_distances(found, m, distance, time):
+    """Note time and delta-v at each docking distance, m, not less than that from the port."""
+    passages = found.passages
+    for i in range(len(passages.distances)):
+        if np.isnan(passages.times[m, i]) and distance <= passages.distances[i]:
+            passages.times[m, i], passages.delta_v[m, i] = time, _spent(found, m)

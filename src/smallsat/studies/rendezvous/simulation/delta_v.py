@@ -33,10 +33,3 @@ def summed(changes: np.ndarray, reading: str) -> float:
     if reading == "plane and normal":
         return float((np.hypot(size[:, 0], size[:, 1]) + size[:, 2]).sum())
     raise ValueError(f"no reading {reading!r}")
-
-
-def in_turned_axes(changes: np.ndarray, angles: np.ndarray) -> np.ndarray:
-    """Velocity changes in axes turned about the orbit normal by an angle each, rad, (K, 3)."""
-    c, s = np.cos(angles), np.sin(angles)
-    x, y, z = np.asarray(changes, dtype=float).reshape(-1, 3).T
-    return np.column_stack([c * x + s * y, c * y - s * x, z])

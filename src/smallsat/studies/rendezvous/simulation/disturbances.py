@@ -1,4 +1,4 @@
-"""The disturbances of chapter 5 from the configuration."""
+"""Nonlinear motion from the configuration: as it is, and with the disturbances of chapter 5."""
 
 import numpy as np
 
@@ -11,14 +11,14 @@ from smallsat.studies.rendezvous.model.actuation_noise import (
     stationary_factor,
     steady_state,
 )
-from smallsat.studies.rendezvous.model.environment import environment, orbit_radius, target_state
+from smallsat.studies.rendezvous.model.environment import environment, target_state
 from smallsat.studies.rendezvous.model.navigation_filter import FilterModel
 from smallsat.studies.rendezvous.model.prediction import transition
-from smallsat.studies.rendezvous.simulation.disturbed_loop import Disturbances
+from smallsat.studies.rendezvous.simulation.motion import BURNS, IMPULSES, NonlinearMotion
 
 
 def thrust_noise(section: Config) -> Noise:
-    """Table 5.1."""
+    """Noise of the thrust's amplitude (Table 5.1)."""
     table = section["studies"]["robustness"]["thrust_error"]
     return Noise(
         table["tau_s"], table["omega_n_rad_s"], table["xi"], table["eta_w"], table["eta_v"]
@@ -30,48 +30,68 @@ def thrust_reading(section: Config) -> str:
     return section["studies"]["robustness"]["thrust_error"]["reading"]
 
 
-def truth_radius(law: Law) -> float:
-    """Radius of the target's orbit, m."""
-    return orbit_radius(law.mean_motion)
+def nonlinear_motion(section: Config, law: Law, actuation: int) -> NonlinearMotion:
+    """Two bodies in the Earth's field with drag, a known state and faultless thrusters.
+
+    Parameters
+    ----------
+    section
+        The configuration's ``rendezvous``: its spacecraft and truth.
+    law
+        For the target's mean motion.
+    actuation
+        One of `motion.COMMANDED`, `IMPULSES` and `BURNS`. No least on-time is printed: none here.
+    """
+    craft = section["spacecraft"]
+    return NonlinearMotion(
+        environment=environment(section["truth"], law.mean_motion, craft["mass_kg"]),
+        target=target_state(section["truth"], law.mean_motion),
+        mass=float(craft["mass_kg"]),
+        force=float(craft["thruster_N"]),
+        minimum_on_time=0.0,
+        actuation=actuation,
+        error_start=np.zeros((2, 2)),
+        error_transitions=np.zeros((3, 2, 2)),
+        error_factors=np.zeros((3, 2, 2)),
+        measured=False,
+        position_deviation=0.0,
+        velocity_deviation=0.0,
+        filtered=False,
+        filter_model=FilterModel(*(0.0 for _ in FilterModel._fields)),
+        filter_transitions=np.zeros((3, 6, 6)),
+    )
 
 
-def disturbances(
+def disturbed_motion(
     section: Config,
     law: Law,
     thrust_error: bool = True,
     measurement_error: bool = True,
     filtered: bool = False,
     burns: bool = False,
-) -> Disturbances:
-    """All disturbances of chapter 5, or some of them; gravity and drag always."""
-    settings, craft = section["studies"]["robustness"], section["spacecraft"]
+) -> NonlinearMotion:
+    """Nonlinear motion with all disturbances of chapter 5, or some; gravity and drag always."""
+    table = section["studies"]["robustness"]
     noise, reading = thrust_noise(section), thrust_reading(section)
     steps = [interval(noise, reading, duration) for duration in law.sample_times]
     scale = 1.0 if thrust_error else 0.0
-    position = settings["position_deviation_m"] if measurement_error else 0.0
-    velocity = settings["velocity_deviation_m_s"] if measurement_error else 0.0
     matrix = rate_matrix(law.mean_motion) if law.prediction is None else law.prediction
-    model = FilterModel(
-        position_error=settings["position_deviation_m"],
-        velocity_error=settings["velocity_deviation_m_s"],
-        amplitude_error=float(np.sqrt(steady_state(noise, reading)[0, 0])),
-        gradient_error=settings["filter"]["gradient_error"],
-        other_acceleration=settings["filter"]["other_acceleration_m_s2"],
-        mean_motion=law.mean_motion,
-    )
-    return Disturbances(
-        environment=environment(section["truth"], law.mean_motion, craft["mass_kg"]),
-        target=target_state(section["truth"], law.mean_motion),
-        mass=craft["mass_kg"],
-        force=craft["thruster_N"],
-        minimum_on_time=settings["minimum_on_time_s"],
-        burns=burns,
+    return nonlinear_motion(section, law, BURNS if burns else IMPULSES)._replace(
+        minimum_on_time=float(table["minimum_on_time_s"]),
         error_start=scale * stationary_factor(noise, reading),
         error_transitions=np.stack([one.transition for one in steps]),
         error_factors=scale * np.stack([one.factor for one in steps]),
-        position_deviation=position,
-        velocity_deviation=velocity,
+        measured=True,
+        position_deviation=float(table["position_deviation_m"]) if measurement_error else 0.0,
+        velocity_deviation=float(table["velocity_deviation_m_s"]) if measurement_error else 0.0,
         filtered=filtered,
-        filter_model=model,
+        filter_model=FilterModel(
+            position_error=float(table["position_deviation_m"]),
+            velocity_error=float(table["velocity_deviation_m_s"]),
+            amplitude_error=float(np.sqrt(steady_state(noise, reading)[0, 0])),
+            gradient_error=float(table["filter"]["gradient_error"]),
+            other_acceleration=float(table["filter"]["other_acceleration_m_s2"]),
+            mean_motion=law.mean_motion,
+        ),
         filter_transitions=np.stack([transition(matrix, ts) for ts in law.sample_times]),
     )

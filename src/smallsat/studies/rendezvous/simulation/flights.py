@@ -1,4 +1,4 @@
-"""The five manoeuvres of Section 3.6 flown by the configured law, as tidy tables."""
+"""The five manoeuvres of Section 3.6 by the configured law, in linear motion, as tidy tables."""
 
 import numpy as np
 import pandas as pd
@@ -6,31 +6,30 @@ import pandas as pd
 from smallsat.config import Config
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
 from smallsat.studies.rendezvous.guidance.law import PHASES, Law
+from smallsat.studies.rendezvous.model.columns import CHANGE, STATE
 from smallsat.studies.rendezvous.model.prediction import transition
 from smallsat.studies.rendezvous.parameters import CASES, law, start_state
-from smallsat.studies.rendezvous.simulation.closed_loop import Steps, manoeuvres
+from smallsat.studies.rendezvous.simulation.closed_loop import Steps, simulate
 from smallsat.studies.rendezvous.simulation.delta_v import READINGS, summed
 
-STATE = ["x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s"]
-CHANGE = ["dvx_m_s", "dvy_m_s", "dvz_m_s"]
 # Pieces of a step in which the path between samples is looked at.
 PIECES = 10
 
 
-def fly_cases(section: Config) -> dict[str, pd.DataFrame]:
-    """Fly the cases: the tables ``flights``, ``paths`` and ``phases`` by file name.
+def simulate_cases(section: Config) -> dict[str, pd.DataFrame]:
+    """Simulate the cases: the tables ``flights``, ``paths`` and ``phases`` by file name.
 
     ``flights.parquet`` has a row a step (state before the control, velocity change, status) and a
     last row where the manoeuvre ended, ``paths.parquet`` the motion between samples, and
     ``phases.csv`` steps, times and delta-v of each phase.
     """
     laws = {case: law(section, case) for case in CASES}
-    flown = manoeuvres(
+    found = simulate(
         list(laws.values()), np.tile(start_state(section), (len(laws), 1)), with_steps=True
     )
     flights, paths, phases = [], [], []
     for number, (case, given) in enumerate(laws.items()):
-        steps, end = flown.records[number], flown.ends[number]
+        steps, end = found.record(number), found.ends[number]
         # A manoeuvre that does not dock ends in the phase that it is in.
         flights.append(_flight(case, steps, end[steps.phase[-1]], given))
         paths.append(_path(case, steps, given))
@@ -40,14 +39,14 @@ def fly_cases(section: Config) -> dict[str, pd.DataFrame]:
                 {
                     "flight": case,
                     "phase": name,
-                    "ended": bool(flown.docked[number])
+                    "ended": bool(found.docked[number])
                     or len(steps.impulse[steps.phase > phase]) > 0,
                     "steps": len(changes),
                     "time_s": len(changes) * given.sample_times[phase],
                     **{reading: summed(changes, reading) for reading in READINGS},
-                    "softened": int(flown.softened[number, phase]),
-                    "outside_at_start": int(flown.outside[number, phase]),
-                    "failed": int(flown.failed[number, phase]),
+                    "softened": int(found.softened[number, phase]),
+                    "outside_at_start": int(found.outside[number, phase]),
+                    "failed": int(found.failed[number, phase]),
                 }
             )
     return {

@@ -7,27 +7,28 @@ import pandas as pd
 
 from smallsat.results import read_table
 from smallsat.step import Step, Tables
+from smallsat.studies.rendezvous.model.columns import STATE
 from smallsat.studies.rendezvous.monte_carlo.cases import BASELINE, PHASES, Case, cases
-from smallsat.studies.rendezvous.monte_carlo.runs import fly_cases, fly_passages
-from smallsat.studies.rendezvous.monte_carlo.tables import STATE, end_columns
+from smallsat.studies.rendezvous.monte_carlo.runs import simulate_cases, simulate_passages
+from smallsat.studies.rendezvous.monte_carlo.tables import end_columns
 
 
 def run(step: Step) -> Tables:
-    """Fly a shard of a group."""
+    """Simulate a shard of a group."""
     flown = cases(step.section, step.part)
     starts = [_starts(case, step.results / "studies") for case in flown]
     own = [table.iloc[step.shard.units(len(table))] for table in starts]
     if step.part == "passages":
-        table = fly_passages(step.section, flown[0], own[0])
+        table = simulate_passages(step.section, flown[0], own[0])
     else:
-        table = fly_cases(step.section, flown, own)
+        table = simulate_cases(step.section, flown, own)
     return {f"studies/shards/{step.part}-{step.shard}.parquet": table}
 
 
 def _starts(case: Case, folder: Path) -> pd.DataFrame:
     """Where a case begins: an initial state, or where the baseline ended the phase before."""
     if case.phases[0] == 0:
-        name = "initial-states" if case.world is None else "disturbed-states"
+        name = "initial-states" if case.motion is None else "disturbed-states"
         table = read_table(folder / f"{name}.parquet")
     else:
         flown = read_table(folder / "domain.parquet")

@@ -1,4 +1,4 @@
-"""All solvers on programs sampled from closed loops."""
+"""All QP solvers on programs sampled from closed loops."""
 
 from smallsat.step import Step, Tables
 from smallsat.studies.rendezvous.methods import solver_comparison
@@ -12,8 +12,8 @@ def run(step: Step) -> Tables:
     laws = {"QP": law(section), "1-norm": law(section, "lp")}
     seed, spread = section["studies"]["seed"], distribution(section)
     starts = initial_states(size["manoeuvres"], seed, spread, laws["QP"].mean_motion)
-    given = solver_comparison.samples(laws, starts, size["programs"])
-    answers, seconds = solver_comparison.compare(given)
+    programs = solver_comparison.samples(laws, starts, size["programs"])
+    answers, seconds = solver_comparison.compare(programs)
     return {
         "solvers.csv": solver_comparison.summary(answers),
         "solver-seconds.csv": solver_comparison.seconds_summary(seconds),

@@ -1,4 +1,4 @@
-"""The guidance law once more, in plain NumPy: to be read, and to check the compiled loop with.
+"""The guidance law and its closed loop once more, in plain NumPy, for tests of the compiled loop.
 
 Nothing is shared with the compiled loop but the description of the law. Every program is written
 down in metres and metres per second as the document prints it, with its constraints as penalties
@@ -17,12 +17,11 @@ from smallsat.studies.rendezvous.guidance.law import (
     AT_HORIZON,
     AT_STAGE,
     CONE_ONLY,
-    CURRENT,
-    NATURAL,
     Law,
     settings,
 )
 from smallsat.studies.rendezvous.methods.qp_solvers import Answer, SparseProgram
+from smallsat.studies.rendezvous.model.geometry import CURRENT, NATURAL
 
 Array = np.ndarray
 
@@ -212,7 +211,7 @@ class Flight:
     Attributes
     ----------
     steps
-        Of each phase that was flown.
+        Number of steps of each phase that was begun.
     states
         Before each step and at the end, (K + 1, 6), m and m/s.
     impulses
@@ -227,7 +226,7 @@ class Flight:
     unsolved: int
 
 
-def fly(law: Law, start: Array, solve: Callable[[SparseProgram], Answer]) -> Flight:
+def simulate(law: Law, start: Array, solve: Callable[[SparseProgram], Answer]) -> Flight:
     """One manoeuvre with a quadratic cost and Clohessy-Wiltshire truth."""
     if law.norm_weights is not None or law.prediction is not None or law.delay > 0.0:
         raise ValueError("the reference loop knows the document's own quadratic programs only")

@@ -1,0 +1,164 @@
+"""The three-phase guidance law (Algorithm 1): a velocity change for a state, and a phase's end.
+
+Errata of Algorithm 1: the far range ends where Hx <= 0 (not x <= Hx) and, since the keep-out
+forbids |x| <= r1, within a margin of r1; the other phases end by a distance, not by x <= r.
+States are relative positions, m, and velocities, m/s, in the target's Hill frame.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from smallsat.dynamics.compiled import compiled
+from smallsat.optimal_control.riccati_interior_point import (
+    CONTROLS,
+    SOLVED,
+    STATES,
+    Program,
+    Workspace,
+    solve,
+    workspace,
+)
+from smallsat.studies.rendezvous.guidance.law import CONE_ONLY, DISTANCE, DOCKING, RENDEZVOUS
+from smallsat.studies.rendezvous.guidance.phase_programs import (
+    BOUNDS,
+    PLANES,
+    empty_program,
+    write_program,
+)
+from smallsat.studies.rendezvous.model.geometry import in_cone, rotated
+
+TOLERANCE = 1e-10  # of the solver, relative
+ITERATION_LIMIT = 100
+SOFTENED = 1e-5  # scaled excess of a hard row that counts as having given way
+
+
+class Memory(NamedTuple):
+    """What the controller writes on, for horizons of up to N stages.
+
+    Attributes
+    ----------
+    program, work
+        The program of a step, and the solver's workspace.
+    scaled
+        The state in units of the law's scales, (6,).
+    plan
+        Controls of the phase's last solved program, (N, 3), m/s.
+    remaining
+        How many of them, at the end of the plan, are still to come, (1,). A phase begins with none.
+    """
+
+    program: Program
+    work: Workspace
+    scaled: np.ndarray
+    plan: np.ndarray
+    remaining: np.ndarray
+
+
+class Control(NamedTuple):
+    """How a velocity change was found.
+
+    Attributes
+    ----------
+    status, iterations
+        Of the solver, see `riccati_interior_point.Solution`.
+    softened
+        Number of hard rows that gave way.
+    outside
+        Whether the start of the horizon violated a constraint.
+    """
+
+    status: int
+    iterations: int
+    softened: int
+    outside: bool
+
+
+@compiled
+def memory_for(stages):
+    """Return a `Memory` for horizons of up to that many stages."""
+    return Memory(
+        empty_program(stages),
+        workspace(stages, PLANES, BOUNDS),
+        np.zeros(STATES),
+        np.zeros((stages, CONTROLS)),
+        np.zeros(1, np.int64),
+    )
+
+
+@compiled
+def next_control(law, phase, state, time, memory, command):
+    """Fill `command` with the guidance law's velocity change (3,), m/s, for a state.
+
+    Where the program is not solved, the control that the last solved plan of the phase has for now
+    is taken; where that plan is used up, none.
+
+    Parameters
+    ----------
+    law, phase, state, time
+        `SETTINGS` record; 0, 1 or 2; relative state (6,), m and m/s; s.
+    memory
+        Of `memory_for`, the same for all steps of a manoeuvre.
+    command
+        Filled.
+
+    Returns
+    -------
+    Control
+    """
+    stages = law.horizons[phase]
+    program, outside = write_program(law, phase, state, time, memory.program)
+    for k in range(STATES):
+        memory.scaled[k] = state[k] / law.scales[phase, k]
+    solution = solve(program, stages, memory.scaled, memory.work, TOLERANCE, ITERATION_LIMIT)
+    softened = 0
+    if solution.status == SOLVED:
+        for r in range(len(solution.weights)):
+            hard = solution.weights[r] == law.hard_weights[phase]
+            if hard and solution.excesses[r] > SOFTENED:
+                softened += 1
+        for i in range(stages):
+            for k in range(CONTROLS):
+                memory.plan[i, k] = law.control_bounds[phase] * solution.controls[i, k]
+        memory.remaining[0] = stages
+    command[:] = 0.0
+    if memory.remaining[0] > 0:
+        command[:] = memory.plan[stages - memory.remaining[0]]
+        memory.remaining[0] -= 1
+    return Control(solution.status, solution.iterations, softened, outside)
+
+
+@compiled
+def _offset(law, phase, state, time, axis):
+    """Return how far a state is from where its phase leads, m: along the axis, and in all.
+
+    The docking phase leads to the port, the others to the target. `axis` (3,) is filled.
+    """
+    rotated(law.axis, law.rotation_rate * time, axis)
+    tip = law.port if phase == DOCKING else 0.0
+    along, square = 0.0, 0.0
+    for k in range(3):
+        offset = state[k] - tip * axis[k]
+        along += offset * axis[k]
+        square += offset * offset
+    return along, np.sqrt(square)
+
+
+@compiled
+def phase_ended(law, phase, state, time):
+    """Whether a phase's end condition holds for a state (6,), m and m/s, at a time, s."""
+    axis = np.empty(3)
+    along, distance = _offset(law, phase, state, time, axis)
+    if phase == RENDEZVOUS and not in_cone(state, axis, law.tangents[phase]):
+        return False
+    if law.switch_kinds[phase] == CONE_ONLY:
+        return True
+    if law.switch_kinds[phase] == DISTANCE:
+        return distance <= law.switch_distances[phase]
+    return along <= law.switch_distances[phase]
+
+
+@compiled
+def port_distance(law, state, time):
+    """Distance of a state (6,) from the docking port, m."""
+    return _offset(law, DOCKING, state, time, np.empty(3))[1]

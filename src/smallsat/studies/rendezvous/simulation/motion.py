@@ -1,0 +1,220 @@
+"""What the guidance moves and what it is told of it: the motion that a closed loop is run with.
+
+Linear motion, `None` in place of a `NonlinearMotion`, is that of Clohessy and Wiltshire's equations
+with impulses as commanded and a state that is known. Every function here takes either, and is
+compiled for each on its own. What moves is a pair of states (2, 6), of the target and the chaser:
+inertial ones, or for linear motion those in the target's Hill frame, in whose origin the target
+rests. Relative states are positions, m, and velocities, m/s, in that frame.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from smallsat.dynamics.compiled import compiled
+from smallsat.studies.rendezvous.model import actuation_noise, navigation_filter
+from smallsat.studies.rendezvous.model.actuation_noise import Interval
+from smallsat.studies.rendezvous.model.navigation_filter import FilterModel
+from smallsat.studies.rendezvous.model.thrusters import pulse_on_times, thrust_acceleration
+from smallsat.studies.rendezvous.model.truth import (
+    Environment,
+    advance,
+    pair_from_relative,
+    relative_state,
+)
+
+# How a velocity change comes about: as commanded and at once; as the thrusters' pulses give it, but
+# at once; or as they give it, in the time that they take from the step's start.
+COMMANDED, IMPULSES, BURNS = 0, 1, 2
+# Of the thrust's amplitude error w (5.2).
+ERROR_RANGE = (-1.0, 1.0)
+
+
+class NonlinearMotion(NamedTuple):
+    """Two bodies in the Earth's field and air, with what the law does not know, in SI units.
+
+    Attributes
+    ----------
+    environment, target
+        Of `smallsat.studies.rendezvous.model.truth`: the Earth and the bodies; the target's
+        inertial state (6,).
+    mass, force, minimum_on_time
+        Of the chaser; of a thruster; of a pulse.
+    actuation
+        `COMMANDED`, `IMPULSES` or `BURNS`.
+    error_start, error_transitions, error_factors
+        Of the thrust's amplitude error: `actuation_noise.stationary_factor`, and the two arrays of
+        `actuation_noise.Interval` for the sample time of each phase, (3, 2, 2). Zeros: no error.
+    measured
+        Whether the law knows measurements only; else it knows the state.
+    position_deviation, velocity_deviation
+        Standard deviations of a measurement's error along each axis (Eqs. 5.6 and 5.7).
+    filtered
+        Whether a Kalman filter stands between measurement and guidance.
+    filter_model, filter_transitions
+        Of `navigation_filter`; of each phase's prediction over its sample time, (3, 6, 6).
+    """
+
+    environment: Environment
+    target: np.ndarray
+    mass: float
+    force: float
+    minimum_on_time: float
+    actuation: int
+    error_start: np.ndarray
+    error_transitions: np.ndarray
+    error_factors: np.ndarray
+    measured: bool
+    position_deviation: float
+    velocity_deviation: float
+    filtered: bool
+    filter_model: FilterModel
+    filter_transitions: np.ndarray
+
+
+@compiled
+def begin(motion, start):
+    """Return the pair of states (2, 6) for a relative state (6,)."""
+    if motion is None:
+        pair = np.zeros((2, 6))
+        pair[1] = start
+        return pair
+    return pair_from_relative(motion.target, start)
+
+
+@compiled
+def relative(motion, pair):
+    """Return the relative state (6,) of a pair of states."""
+    if motion is None:
+        return pair[1].copy()
+    return relative_state(pair)
+
+
+@compiled
+def apply_transition(transition, state):
+    """Multiply a state (6,) by a transition matrix (6, 6), in place."""
+    before = state.copy()
+    for j in range(6):
+        total = 0.0
+        for k in range(6):
+            total += transition[j, k] * before[k]
+        state[j] = total
+
+
+@compiled
+def coast(motion, pair, transition, time, duration, burn, on_times):
+    """Move a pair of states on by a duration, s, in place.
+
+    Parameters
+    ----------
+    transition
+        Of the linear equations over the duration, (6, 6), for linear motion.
+    time, burn, on_times
+        For nonlinear motion: s since time zero, and thrusters that burn, see `truth.advance`.
+    """
+    if motion is None:
+        apply_transition(transition, pair[1])
+    else:
+        advance(pair, time, duration, burn, on_times, motion.environment)
+
+
+@compiled
+def push(motion, pair, command, error, longest, burn, on_times, applied):
+    """Turn a command into an impulse on the chaser, in place, or into burns that are to come.
+
+    Parameters
+    ----------
+    command
+        Velocity change (3,), m/s.
+    error, longest
+        Amplitude error w of the thrust; the longest that a pulse may take, s.
+    burn, on_times, applied
+        Filled, (3,) each: acceleration while the thrusters burn, m/s^2; how long each burns from
+        now, s; the velocity change that comes of it, m/s.
+    """
+    on_times[:] = 0.0
+    if motion is None:
+        applied[:] = command
+        for k in range(3):
+            pair[1, 3 + k] += applied[k]
+    else:
+        if motion.actuation == COMMANDED:
+            applied[:] = command
+        else:
+            pulse_on_times(command, motion.mass, motion.force, motion.minimum_on_time, on_times)
+            limited = min(max(error, ERROR_RANGE[0]), ERROR_RANGE[1])
+            thrust_acceleration(command, motion.mass, (1.0 + limited) * motion.force, burn)
+            for k in range(3):
+                applied[k] = burn[k] * on_times[k]
+        if motion.actuation == BURNS:
+            for k in range(3):
+                applied[k] = burn[k] * min(on_times[k], longest)
+        else:
+            on_times[:] = 0.0
+            state = relative_state(pair)
+            for k in range(3):
+                state[3 + k] += applied[k]
+            pair[:] = pair_from_relative(pair[0], state)
+
+
+@compiled
+def first_error(motion, generator):
+    """Return the state (w, v) of the thrust's amplitude error at time zero."""
+    if motion is None:
+        return 0.0, 0.0
+    return actuation_noise.start(
+        motion.error_start, generator.standard_normal(), generator.standard_normal()
+    )
+
+
+@compiled
+def next_error(motion, phase, w, v, generator):
+    """Return the state (w, v) of the thrust's amplitude error after a step of a phase."""
+    if motion is None:
+        return w, v
+    step = Interval(motion.error_transitions[phase], motion.error_factors[phase])
+    return actuation_noise.step(
+        w, v, step, generator.standard_normal(), generator.standard_normal()
+    )
+
+
+@compiled
+def first_estimate(motion, start, state, generator, estimate, covariance):
+    """Fill what the law knows at time zero: estimate (6,) and its covariance (6, 6).
+
+    ``start`` is measured; ``state`` is the same but for the rounding of inertial positions.
+    """
+    if motion is None or not motion.measured:
+        estimate[:] = state
+    else:
+        estimate[:] = _measured(motion, start, generator)
+        navigation_filter.begin(motion.filter_model, covariance)
+
+
+@compiled
+def next_estimate(motion, phase, duration, command, state, generator, estimate, covariance):
+    """Bring estimate and covariance to the end of a step that began with a command (3,), m/s.
+
+    ``state`` is the true relative state then, ``duration`` the step's length, s.
+    """
+    if motion is None or not motion.measured:
+        estimate[:] = state
+    elif not motion.filtered:
+        estimate[:] = _measured(motion, state, generator)
+    else:
+        measured = _measured(motion, state, generator)
+        navigation_filter.predict(
+            estimate, covariance, command, motion.filter_transitions[phase], duration,
+            motion.filter_model,
+        )  # fmt: skip
+        navigation_filter.update(estimate, covariance, measured, motion.filter_model)
+
+
+@compiled
+def _measured(motion, state, generator):
+    """Return a relative state (6,) with independent normal errors."""
+    measured = np.empty(6)
+    for k in range(6):
+        deviation = motion.position_deviation if k < 3 else motion.velocity_deviation
+        measured[k] = state[k] + deviation * generator.standard_normal()
+    return measured
