@@ -15,7 +15,13 @@ from smallsat.dynamics.attitude.quaternions import (
     turn_angle,
 )
 from smallsat.dynamics.environment.torques import ATMOSPHERE, density, gravity_gradient, panel_drag
-from smallsat.dynamics.orbits.kepler_orbits import Elements, Gravity, fly, period, state_of
+from smallsat.dynamics.orbits.kepler_orbits import (
+    Elements,
+    Gravity,
+    period,
+    propagate_orbit,
+    state_of,
+)
 
 EARTH = Gravity(3.986004418e14, 6378e3, 1.08262668e-3)
 
@@ -117,12 +123,12 @@ def test_orbit_returns_after_a_period_and_keeps_energy():
     elements = Elements(7000e3, 0.01, np.radians(50.0), 0.3, 0.7, 0.2)
     r, v = state_of(elements, EARTH.mu)
     around = period(elements.semi_major_axis, EARTH.mu)
-    end = fly(r, v, EARTH._replace(j2=0.0), np.array([0.0, around]))[-1]
+    end = propagate_orbit(r, v, EARTH._replace(j2=0.0), np.array([0.0, around]))[-1]
     np.testing.assert_allclose(end[:3], r, atol=1.0)
     np.testing.assert_allclose(end[3:], v, atol=1e-3)
 
     turns = 5
-    state = fly(r, v, EARTH, np.array([0.0, turns * around]))[-1]
+    state = propagate_orbit(r, v, EARTH, np.array([0.0, turns * around]))[-1]
     normal = np.cross(state[:3], state[3:])
     node = np.arctan2(normal[0], -normal[1])
     semilatus = elements.semi_major_axis * (1 - elements.eccentricity**2)

@@ -4,12 +4,11 @@ import matplotlib as mpl
 from cycler import cycler
 
 # Okabe and Ito's colours, which colour-blind readers can tell apart.
-BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE = (
+BLACK, ORANGE, SKY, GREEN, BLUE, VERMILION, PURPLE = (
     "#000000",
     "#e69f00",
     "#56b4e9",
     "#009e73",
-    "#f0e442",
     "#0072b2",
     "#d55e00",
     "#cc79a7",

@@ -10,7 +10,6 @@ from scipy.integrate import DOP853
 STAGE_MATRIX = DOP853.A[: DOP853.n_stages, : DOP853.n_stages]
 WEIGHTS = DOP853.B
 NODES = DOP853.C[: DOP853.n_stages]
-STAGES = DOP853.n_stages
 
 
 def step_function(

@@ -17,13 +17,13 @@ class Gravity(NamedTuple):
 
 
 class Elements(NamedTuple):
-    """Keplerian elements, m and rad; ``perigee`` is its argument."""
+    """Keplerian elements, in m and rad."""
 
     semi_major_axis: float
     eccentricity: float
     inclination: float
     raan: float
-    perigee: float
+    argument_of_perigee: float
     true_anomaly: float
 
 
@@ -31,7 +31,8 @@ def perifocal_frame(elements: Elements) -> np.ndarray:
     """Rows: towards perigee, along the motion at perigee, orbit normal; inertial components."""
     cn, sn = np.cos(elements.raan), np.sin(elements.raan)
     ci, si = np.cos(elements.inclination), np.sin(elements.inclination)
-    cp, sp = np.cos(elements.perigee), np.sin(elements.perigee)
+    angle = elements.argument_of_perigee
+    cp, sp = np.cos(angle), np.sin(angle)
     return np.array(
         [
             [cn * cp - sn * sp * ci, sn * cp + cn * sp * ci, sp * si],
@@ -64,7 +65,7 @@ def acceleration(r, mu, radius, j2):
     return (flat * x, flat * y, -central * (1.0 + factor * (3.0 - height)) * z)
 
 
-def fly(
+def propagate_orbit(
     position: np.ndarray, velocity: np.ndarray, gravity: Gravity, times: np.ndarray
 ) -> np.ndarray:
     """States (n, 6) at times, s, from a state at the first; relative error about 1e-12 an orbit.

@@ -7,10 +7,10 @@ import numpy as np
 
 from smallsat.config import Config
 from smallsat.dynamics.orbits.circular_orbits import CircularOrbit
+from smallsat.dynamics.units import KM
 from smallsat.errors import InputError
 from smallsat.studies.mars.model.gains import Gains, gains
 
-KM = 1000.0
 # Gravity of Mars, m^3/s^2: Konopliv et al., Mars high resolution gravity fields from MRO (2011).
 MARS_MU = 42828.37e9
 # The Mars day as printed, s (mars, Section XIII.B); a what-if run may fly another time.

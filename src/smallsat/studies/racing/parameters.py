@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from smallsat.config import Config
+from smallsat.dynamics.units import MINUTE
 from smallsat.errors import InputError
 from smallsat.studies.racing.methods.as_published import Settings
 from smallsat.studies.racing.model.course import COINCIDENT, Course, Ranges, check_course, generate
@@ -13,7 +14,6 @@ from smallsat.studies.racing.model.course_file import read_course_file
 from smallsat.studies.racing.model.cubesat import CubeSat, cubesat
 from smallsat.studies.racing.model.matlab_random import MatlabStream
 
-MINUTE = 60.0
 SCENARIOS = ("scenario-1", "scenario-2")
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from smallsat.config import Config
 from smallsat.dynamics.environment import egm96
+from smallsat.dynamics.units import MINUTE
 from smallsat.errors import InputError
 from smallsat.studies.rendezvous.guidance.law import (
     ALONG_AXIS,
@@ -28,7 +29,6 @@ SWITCHES = {"cone": CONE_ONLY, "distance": DISTANCE, "along axis": ALONG_AXIS}
 SET_POINT_TIMES = {"start": AT_START, "horizon": AT_HORIZON, "stage": AT_STAGE}
 # Names that the studies of chapter 4 have for the phases.
 STUDY_PHASES = ("rendezvous", "approach", "docking")
-MINUTE = 60.0
 CONE_SHARES = {"half": 1.0, "full": 0.5}
 
 

@@ -7,9 +7,9 @@ import numpy as np
 from smallsat.config import Config
 from smallsat.dynamics.attitude.quaternions import error_quaternion, turn_angle
 from smallsat.dynamics.orbits.kepler_orbits import Elements, Gravity, state_of
+from smallsat.dynamics.units import KM
 from smallsat.errors import InputError
 
-KM = 1000.0
 MILLI = 1e-3
 # Body rate at both ends of a manoeuvre, rad/s.
 REST = (0.0, 0.0, 0.0)

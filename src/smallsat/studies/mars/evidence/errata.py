@@ -8,6 +8,7 @@ from scipy.spatial.transform import Rotation
 from smallsat.dynamics.attitude.mrp import mrp_to_dcm
 from smallsat.dynamics.attitude.rigid_body import angular_momentum, kinetic_energy
 from smallsat.dynamics.orbits.circular_orbits import orbit_frame, position
+from smallsat.dynamics.units import KM
 from smallsat.evidence.errata import Proof
 from smallsat.evidence.grounds import Grounds
 from smallsat.evidence.printed import Printed
@@ -29,7 +30,7 @@ from smallsat.studies.mars.model.frames import (
     nadir_frame_rate,
 )
 from smallsat.studies.mars.model.gains import Gains, damping_ratios
-from smallsat.studies.mars.parameters import KM, parameters
+from smallsat.studies.mars.parameters import parameters
 
 # Place of the misprinted column of Table 8 among the mission's answer times.
 MISPRINTED_TIME = 3

@@ -10,6 +10,7 @@ from smallsat.config import Config
 from smallsat.dynamics.attitude.mrp import dcm_to_mrp, mrp_to_dcm, shadow
 from smallsat.dynamics.attitude.rigid_body import angular_momentum, kinetic_energy
 from smallsat.dynamics.orbits.circular_orbits import hill_frame, position, velocity
+from smallsat.dynamics.units import KM
 from smallsat.errors import InputError
 from smallsat.evidence.observation import Observation
 from smallsat.studies.mars.methods.simulation import POINTING_RUNS, START, reference, tracking_error
@@ -21,7 +22,7 @@ from smallsat.studies.mars.model.frames import (
     nadir_frame,
     nadir_frame_rate,
 )
-from smallsat.studies.mars.parameters import KM, Parameters
+from smallsat.studies.mars.parameters import Parameters
 
 # Places in the document, by run; the times stand in the ids.
 POINTING_TABLES = {"sun": "table-4", "nadir": "table-5", "gmo": "table-6"}

@@ -12,6 +12,7 @@ import pandas as pd
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from smallsat.dynamics.units import KM
 from smallsat.studies.mars.figures.scenes import (
     ARROW,
     ARROW_LABEL,
@@ -29,7 +30,7 @@ from smallsat.studies.mars.figures.scenes import (
     view,
 )
 from smallsat.studies.mars.model.modes import GMO
-from smallsat.studies.mars.parameters import KM, Parameters
+from smallsat.studies.mars.parameters import Parameters
 
 # Multiples of 16, as the encoder asks for.
 WIDTH, HEIGHT, DPI = 960, 544, 100

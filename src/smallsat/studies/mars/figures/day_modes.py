@@ -4,12 +4,12 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.pyplot import subplots
 
+from smallsat.dynamics.units import HOUR
 from smallsat.studies.mars.model.modes import MODE_NAMES
 from smallsat.studies.mars.parameters import MARS_DAY
 
 COLOURS = {"sun": "C4", "nadir": "C0", "gmo": "C2"}
 LABELS = {"sun": "Sun", "nadir": "nadir", "gmo": "GMO"}
-HOUR = 3600.0
 
 
 def mode_figure(intervals: pd.DataFrame, shares: pd.DataFrame) -> Figure:

@@ -15,8 +15,9 @@ from mpl_toolkits.mplot3d import Axes3D
 
 from smallsat.dynamics.attitude.mrp import mrp_to_dcm
 from smallsat.dynamics.orbits.circular_orbits import CircularOrbit, position
+from smallsat.dynamics.units import KM
 from smallsat.studies.mars.model.modes import GMO, NADIR, SUN
-from smallsat.studies.mars.parameters import KM, Parameters
+from smallsat.studies.mars.parameters import Parameters
 
 MODE_TITLES = {SUN: "Sun pointing", NADIR: "nadir pointing", GMO: "GMO pointing"}
 BODY_COLOURS = ("C1", "C2", "C0", "C1")

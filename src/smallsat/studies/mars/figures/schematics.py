@@ -16,8 +16,9 @@ from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from smallsat.dynamics.orbits.circular_orbits import CircularOrbit, orbit_frame, position
+from smallsat.dynamics.units import KM
 from smallsat.studies.mars.figures.scenes import BODY_COLOURS, DAY_COLOUR, NIGHT_COLOUR, view
-from smallsat.studies.mars.parameters import KM, Parameters
+from smallsat.studies.mars.parameters import Parameters
 
 Drawing = tuple[Figure, pd.DataFrame]
 

@@ -21,7 +21,6 @@ COMPARED = {
     "v-bar": "qp-with-set-point",
     "lp": "lp",
 }
-MINUTE = 60.0
 
 
 def cell_id(quantity: str, case: str, phase: str) -> str:

@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 from scipy.optimize import linprog
 
+from smallsat.dynamics.units import KM
 from smallsat.evidence.claims import Judgement, Outcome, judged
 from smallsat.evidence.grounds import Grounds
 from smallsat.studies.rendezvous.evidence.case_tables import (
@@ -353,7 +354,7 @@ def velocity_is_of_a_stable_ellipse(grounds: Grounds) -> Judgement:
     low, high = max(from_x[0], from_y[0]), min(from_x[1], from_y[1])
     ours = grounds.config["rendezvous"]["inferred"]["mean_motion_rad_s"]
     mu, radius = 398600.4418e9, 6378137.0
-    heights = [((mu / n**2) ** (1 / 3) - radius) / 1000.0 for n in (high, low)]
+    heights = [((mu / n**2) ** (1 / 3) - radius) / KM for n in (high, low)]
     return judged(
         low < high and low <= ours <= high,
         f"both components give the same mean motion within their rounding, {low:.6f} to {high:.6f} "

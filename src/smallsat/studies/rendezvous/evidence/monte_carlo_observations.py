@@ -8,6 +8,7 @@ import numpy as np
 from scipy.special import gammaln
 from scipy.stats import betabinom
 
+from smallsat.dynamics.units import MINUTE
 from smallsat.evidence.grounds import Grounds
 from smallsat.evidence.observation import Observation
 from smallsat.statistics.bootstrap import effect
@@ -24,7 +25,6 @@ from smallsat.studies.rendezvous.monte_carlo.cases import AS_DOCUMENTED
 from smallsat.studies.rendezvous.monte_carlo.tables import column
 from smallsat.studies.rendezvous.simulation.disturbances import thrust_noise, thrust_reading
 
-MINUTE = 60.0
 # Share of the document's sample from which our largest value bounds another sample's: failures
 # leave a few out. It was all of it until a first run was seen; no verdict changed.
 ENOUGH = 0.9

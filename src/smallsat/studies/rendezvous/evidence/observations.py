@@ -8,13 +8,13 @@ import numpy as np
 import pandas as pd
 
 from smallsat.config import Config
+from smallsat.dynamics.units import MINUTE
 from smallsat.evidence.not_converged import NotConverged
 from smallsat.evidence.observation import Observation
 from smallsat.results import read_table
 from smallsat.studies.rendezvous.evidence.case_tables import (
     CASE_TABLES,
     COMPARED,
-    MINUTE,
     TOTAL,
     cell_id,
 )

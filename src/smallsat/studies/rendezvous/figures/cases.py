@@ -9,6 +9,7 @@ from matplotlib.pyplot import figure as new_figure
 from matplotlib.pyplot import subplots
 
 from smallsat.config import Config
+from smallsat.dynamics.units import MINUTE
 from smallsat.studies.rendezvous.guidance.law import PHASES, Law
 from smallsat.studies.rendezvous.model.columns import CHANGE
 from smallsat.studies.rendezvous.parameters import law
@@ -145,7 +146,7 @@ def comparison(section: Config, flights: pd.DataFrame, paths: pd.DataFrame) -> D
         if path.empty:
             continue
         seconds = float(flights[flights["flight"] == case]["time_s"].iloc[-1])
-        minutes = seconds / 60.0
+        minutes = seconds / MINUTE
         # The time limit ends what has no room for a step more.
         in_time = seconds + given.sample_times[2] <= given.time_limit
         docked = in_time and (flights[flights["flight"] == case]["phase"] == "final").any()

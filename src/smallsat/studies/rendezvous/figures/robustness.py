@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 from matplotlib.pyplot import subplots
 
 from smallsat.drawing.style import BLACK, BLUE, ORANGE, VERMILION
+from smallsat.dynamics.units import HOUR, MINUTE
 
 Drawing = tuple[Figure, pd.DataFrame]
-MINUTE, HOUR = 60.0, 3600.0
 GREY = "#9a9a9a"
 # Of Section 5.1: the range "within 1 sigma", and the bounds that Figure 5.1 dots.
 STATED_PCT, SIGMAS = 7.0, 3.0

@@ -11,6 +11,7 @@ from matplotlib.pyplot import subplots
 
 from smallsat.config import Config
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
+from smallsat.dynamics.units import KM
 from smallsat.studies.rendezvous.figures.cases import (
     INFERRED,
     PHASE_COLOURS,
@@ -27,7 +28,6 @@ from smallsat.studies.rendezvous.model.prediction import transition
 from smallsat.studies.rendezvous.parameters import law
 
 Drawing = tuple[Figure, pd.DataFrame]
-KM = 1000.0
 EARTH_RADIUS_M = 6378137.0
 # Planes of a horizon that are drawn, counted from the chaser.
 DRAWN_PLANES = 7

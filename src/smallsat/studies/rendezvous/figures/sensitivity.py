@@ -16,11 +16,11 @@ from matplotlib.lines import Line2D
 from matplotlib.pyplot import subplots
 
 from smallsat.drawing.style import BLACK, BLUE, GREEN, ORANGE, VERMILION
+from smallsat.dynamics.units import KM, MINUTE
 from smallsat.studies.rendezvous.monte_carlo.cases import PHASES, sweep_case
 from smallsat.studies.rendezvous.monte_carlo.tables import column, totals
 
 Drawing = tuple[Figure, pd.DataFrame]
-MINUTE, KM = 60.0, 1e3
 # Hundreds of dots a colour stay readable when each is small and lets the others through.
 DOT: dict[str, Any] = {"s": 7.0, "alpha": 0.45, "linewidths": 0.0}
 QUADRANT_COLOURS = {1: BLUE, 2: GREEN, 3: ORANGE, 4: VERMILION}

@@ -18,10 +18,10 @@ import pandas as pd
 from scipy.optimize import differential_evolution
 
 from smallsat.config import Config
+from smallsat.dynamics.units import MINUTE
 from smallsat.evidence.ledger import Ledger
 from smallsat.studies.rendezvous.evidence.case_tables import (
     CASE_TABLES,
-    MINUTE,
     phase_cells,
     total_cells,
 )

@@ -7,8 +7,9 @@ import numpy as np
 import pandas as pd
 
 from smallsat.config import Config
+from smallsat.dynamics.units import MINUTE
 from smallsat.evidence.ledger import Ledger
-from smallsat.studies.rendezvous.evidence.case_tables import MINUTE, total_cells
+from smallsat.studies.rendezvous.evidence.case_tables import total_cells
 from smallsat.studies.rendezvous.inference.search import (
     CHOICES,
     SIDES,

@@ -7,11 +7,11 @@ from smallsat.dynamics.environment import egm96
 from smallsat.dynamics.environment.spherical_harmonics import terms
 from smallsat.dynamics.environment.torques import ATMOSPHERE, density
 from smallsat.dynamics.orbits.kepler_orbits import Elements, state_of
+from smallsat.dynamics.units import KM
 from smallsat.studies.rendezvous.model.truth import Environment
 
 # The Earth's rate, rad/s: its field and its air turn with it.
 EARTH_RATE = 7.2921159e-5
-KM = 1000.0
 
 
 def orbit_radius(mean_motion: float) -> float:

@@ -16,8 +16,6 @@ from smallsat.dynamics.environment.spherical_harmonics import acceleration
 from smallsat.dynamics.orbits.circular_orbits import hill_frame
 from smallsat.dynamics.vectors import cross, dot
 
-TARGET, CHASER = 0, 1
-
 
 class Environment(NamedTuple):
     """The Earth, its air and the two bodies, in SI units and radians, for the compiled loop.

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from smallsat.config import Config
+from smallsat.dynamics.units import MINUTE
 from smallsat.studies.rendezvous.guidance.law import Law
 from smallsat.studies.rendezvous.model.environment import orbit_radius
 from smallsat.studies.rendezvous.model.prediction_j2 import schweighart_sedwick
@@ -23,7 +24,6 @@ PHASES = ("rendezvous", "approach", "docking")
 BASELINE, NO_SET_POINT, LP = "baseline", "no set point", "LP"
 AS_DOCUMENTED, UNDISTURBED, FILTERED = "as documented", "undisturbed", "Kalman filter"
 CLOHESSY_WILTSHIRE, SCHWEIGHART_SEDWICK = "Clohessy-Wiltshire", "Schweighart-Sedwick"
-MINUTE = 60.0
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,10 @@ import numpy as np
 import pandas as pd
 
 from smallsat.config import Config
+from smallsat.dynamics.units import MINUTE
 from smallsat.statistics.random_streams import stream
 from smallsat.studies.rendezvous.model.columns import STATE
-from smallsat.studies.rendezvous.monte_carlo.cases import MINUTE, PHASES, Case
+from smallsat.studies.rendezvous.monte_carlo.cases import PHASES, Case
 from smallsat.studies.rendezvous.monte_carlo.tables import (
     PASSAGES,
     SCHEMA,

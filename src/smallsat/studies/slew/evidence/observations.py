@@ -11,16 +11,16 @@ import pandas as pd
 from smallsat.config import Config
 from smallsat.dynamics.attitude.quaternions import roll_pitch_yaw
 from smallsat.dynamics.orbits.kepler_orbits import period
+from smallsat.dynamics.units import KM, MINUTE
 from smallsat.evidence.ledger import Ledger
 from smallsat.evidence.observation import Observation
 from smallsat.results import read_table
 from smallsat.studies.slew.methods.bound import plan_names
 from smallsat.studies.slew.methods.environment_study import crossover_km
 from smallsat.studies.slew.model.simulation import angles_deg, usage_pct
-from smallsat.studies.slew.parameters import KM, Parameters
+from smallsat.studies.slew.parameters import Parameters
 
 AXES = "xyz"
-MINUTE = 60.0
 NO_LEAST_TIME = "not converged: no least time was found"
 NO_PLAN = "not converged: there is no plan"
 RATES = ["omega_x", "omega_y", "omega_z"]

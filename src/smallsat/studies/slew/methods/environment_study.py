@@ -9,10 +9,10 @@ from scipy.spatial.transform import Rotation
 from smallsat.config import Config
 from smallsat.dynamics.environment.torques import ATMOSPHERE, density, gravity_gradient, panel_drag
 from smallsat.dynamics.orbits.kepler_orbits import perifocal_frame
+from smallsat.dynamics.units import DAY, KM
 from smallsat.studies.slew.model.simulation import EARTH_RATE
-from smallsat.studies.slew.parameters import KM, Parameters, panels
+from smallsat.studies.slew.parameters import Parameters, panels
 
-DAY_S = 86400.0
 SAMPLE_S = 60.0
 
 
@@ -27,7 +27,7 @@ def torque_table(section: Config, given: Parameters) -> pd.DataFrame:
     # Rows are the body axes in the inertial frame.
     dcm = Rotation.from_euler("ZYX", [yaw, pitch, roll], degrees=True).as_matrix().T
     frame = perifocal_frame(given.orbit)
-    times = np.arange(0.0, entry["duration_days"] * DAY_S, SAMPLE_S)
+    times = np.arange(0.0, entry["duration_days"] * DAY, SAMPLE_S)
     by_offset = {mm: panels(section, offset=mm / KM) for mm in entry["offsets_mm"]}
     rows = []
     for altitude in entry["altitudes_km"]:

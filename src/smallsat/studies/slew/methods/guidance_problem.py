@@ -22,7 +22,7 @@ from smallsat.optimal_control.gauss_pseudospectral import (
 from smallsat.optimal_control.nonlinear_program import IpoptSolver, Solution
 from smallsat.studies.slew.parameters import Parameters
 
-STATES, CONTROLS = 10, 3
+CONTROLS = 3
 # Kepler's equation is solved by repeated substitution to this, rad: each step gains a factor e.
 KEPLER_ERROR = 1e-13
 

@@ -7,8 +7,9 @@ from smallsat.config import Config
 from smallsat.dynamics.attitude.attitude_propagator import propagate
 from smallsat.dynamics.attitude.quaternions import error_quaternion, turn_angle
 from smallsat.dynamics.compiled import compiled
-from smallsat.dynamics.orbits.kepler_orbits import acceleration, fly
-from smallsat.studies.slew.parameters import KM, START, Parameters
+from smallsat.dynamics.orbits.kepler_orbits import acceleration, propagate_orbit
+from smallsat.dynamics.units import KM
+from smallsat.studies.slew.parameters import START, Parameters
 
 # The highest zonal harmonic that the propagator knows.
 GRAVITY_ORDER = 2
@@ -52,7 +53,9 @@ def final_orbit_states(
         for gravity, j2 in (("two-body", 0.0), (f"J{GRAVITY_ORDER}", given.gravity.j2)):
             field = given.gravity._replace(j2=j2)
             found = {
-                "order 8": fly(start[:3], start[3:], field, np.array([START, given.duration]))[-1],
+                "order 8": propagate_orbit(
+                    start[:3], start[3:], field, np.array([START, given.duration])
+                )[-1],
                 "order 3, fixed step": third_order(start, *field, steps, given.duration / steps),
             }
             for method, state in found.items():

@@ -16,7 +16,7 @@ from smallsat.dynamics.compiled import compiled
 from smallsat.dynamics.environment.torques import ATMOSPHERE, density, gravity_gradient, panel_drag
 from smallsat.dynamics.orbits.kepler_orbits import acceleration
 from smallsat.dynamics.vectors import dot, times
-from smallsat.studies.slew.parameters import KM, Parameters
+from smallsat.studies.slew.parameters import Parameters
 
 # What commands the torque.
 EIGENAXIS, OPEN_LOOP, TRACKING = range(3)
@@ -324,8 +324,3 @@ def usage_pct(table: pd.DataFrame, given: Parameters) -> tuple[np.ndarray, np.nd
     torque = table[["u_x", "u_y", "u_z"]].to_numpy() / given.torque
     momentum = table[["h_x", "h_y", "h_z"]].to_numpy() / given.momentum
     return 100.0 * torque, 100.0 * momentum
-
-
-def altitudes_km(table: pd.DataFrame, given: Parameters) -> np.ndarray:
-    """Altitude (n,), km."""
-    return (np.linalg.norm(table[["r_x", "r_y", "r_z"]], axis=1) - given.gravity.radius) / KM

@@ -2,12 +2,13 @@
 
 import numpy as np
 
+from smallsat.dynamics.units import KM
 from smallsat.evidence.ledger import Ledger
 from smallsat.step import Step, Tables
 from smallsat.studies.slew.methods.environment_study import torque_table
 from smallsat.studies.slew.methods.flights import eigenaxis_flights
 from smallsat.studies.slew.model.onboard import final_orbit_states
-from smallsat.studies.slew.parameters import KM, parameters
+from smallsat.studies.slew.parameters import parameters
 
 
 def run(step: Step) -> Tables:
