@@ -11,12 +11,11 @@ import numpy as np
 import pandas as pd
 from scipy.optimize import linprog
 
-from smallsat.dynamics.units import KM
+from smallsat.dynamics.units import KM, MINUTE
 from smallsat.evidence.claims import Judgement, Outcome, judged
 from smallsat.evidence.grounds import Grounds
 from smallsat.studies.rendezvous.evidence.case_tables import (
     CASE_TABLES,
-    MINUTE,
     TOTAL,
     cell_id,
     phase_cells,
