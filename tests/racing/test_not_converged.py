@@ -150,11 +150,15 @@ def test_dynamic_programming_without_a_path_is_a_row(given, section, short):
 
 def test_a_race_without_a_solution_is_a_row(weak):
     """No numbers, where it is missing, what was tried; the other CubeSat races all the same."""
-    races = weak.frames()["races"].set_index(["cubesat", "solution"])
+    races = weak.files("weak")["weak-races.csv"].set_index(["cubesat", "solution"])
     assert races.loc["Eeny", ["cost", "time_s", "missed", "residual"]].isna().all(axis=None)
     assert (races.loc["Eeny", "not_converged"] > 0).all()
     assert races.loc["Meeny", "time_s"].notna().all()
-    assert set(weak.trajectory()["cubesat"]) == set(weak.frames()["rings"]["cubesat"]) == {"Meeny"}
+    assert (
+        set(weak.trajectory()["cubesat"])
+        == set(weak.files("weak")["weak-rings.csv"]["cubesat"])
+        == {"Meeny"}
+    )
     listed = {case.case: case for case in weak.not_converged}
     whole = listed[f"scenario-1, Eeny, {WHOLE}"]
     assert "continuation" in whole.tried
@@ -164,15 +168,17 @@ def test_a_race_without_a_solution_is_a_row(weak):
 
 def test_observations_and_scores_of_a_missing_race(weak, ledger):
     """Not a number, and said why; no place among the others."""
-    every = observations(weak.frames()["races"], ledger("racing"))
+    every = observations(weak.files("weak")["weak-races.csv"], ledger("racing"))
     found = [one for one in every if one.id.endswith("scenario-1-eeny")]
     assert found
     assert all(np.isnan(one.computed) and one.note.startswith("not converged") for one in found)
     printed = printed_scores(ledger("racing"))
-    scores = score_table(weak.frames()["races"], printed).set_index(["cubesat", "solution"])
+    scores = score_table(weak.files("weak")["weak-races.csv"], printed).set_index(
+        ["cubesat", "solution"]
+    )
     assert pd.isna(scores.loc[("Eeny", WHOLE), "place"])
     assert scores.loc[("Meeny", WHOLE), "place"] == 1
-    assert set(missed_table(weak.frames()["rings"])["cubesat"]) == {"Meeny"}
+    assert set(missed_table(weak.files("weak")["weak-rings.csv"])["cubesat"]) == {"Meeny"}
 
 
 def test_a_missing_race_is_drawn_as_missing(weak, short):
@@ -188,7 +194,7 @@ def test_a_missing_race_is_drawn_as_missing(weak, short):
 
 def test_claims_wait_for_a_missing_race(weak, tmp_path, config, grounds):
     """They need all CubeSats, and raise what makes a claim undecided."""
-    write_table(weak.frames()["races"], tmp_path / "races.csv")
+    write_table(weak.files("weak")["weak-races.csv"], tmp_path / "races.csv")
     given = grounds("racing", config, tmp_path)
     for claim in (claims.mo_slower_than_meeny, claims.whole_course_remedies, claims.not_smooth):
         with pytest.raises(LookupError):
