@@ -75,10 +75,11 @@ def prove_errata(entries: list[dict[str, Any]], grounds: Grounds, path: str) -> 
         if "correct" not in entry and isinstance(proof.correct, str):
             row["correct"] = proof.correct
         elif not _corrects_to(row["correct"], proof.correct, f"{path}: '{entry['key']}'"):
+            found = proof.correct if isinstance(proof.correct, str) else f"{proof.correct:.7g}"
             row["holds"] = False
             row["statement"] = (
-                f"the correction '{row['correct']}' is not what the proof finds, "
-                f"'{proof.correct}'. {proof.statement}"
+                f"the correction '{row['correct']}' is not what the proof finds, '{found}'. "
+                f"{proof.statement}"
             )
         rows.append(row)
     return pd.DataFrame(rows, columns=list(ERRATA_COLUMNS))
