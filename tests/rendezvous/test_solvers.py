@@ -16,6 +16,7 @@ from smallsat.studies.rendezvous.guidance.phase_programs import (
     write_program,
 )
 from smallsat.studies.rendezvous.methods import qp_solvers, solver_comparison
+from smallsat.studies.rendezvous.methods.qp_solvers import Sample, cost
 from smallsat.studies.rendezvous.methods.solver_comparison import NOT_FOR_LP, QP_SOLVERS, samples
 
 
@@ -23,10 +24,6 @@ from smallsat.studies.rendezvous.methods.solver_comparison import NOT_FOR_LP, QP
 def programs(laws, chasers):
     """Programs of all phases and kinds of law from closed loops: 5 laws, up to 4 x 3 each."""
     return samples(laws, chasers[:3], 4)
-
-
-def cost(sample, controls):
-    return qp_solvers.cost(sample.program, sample.stages, sample.start, controls)
 
 
 def test_all_solvers_find_the_same_cost(programs):
@@ -52,7 +49,7 @@ def test_osqp_finds_the_same_where_it_is_let_run(programs):
     """At 1e-7 instead of 1e-4, docking programs: costs within 1e-4 of what the control saves."""
     docking = [sample for sample in programs if sample.kind.startswith("final")]
     for sample in docking:
-        data = qp_solvers.sparse_program(sample.program, sample.stages, sample.start)
+        data = qp_solvers.sparse_program(sample)
         answer = qp_solvers.osqp(data, 1e-7)
         mine = QP_SOLVERS["stage-wise"](sample)
         saved = cost(sample, np.zeros_like(mine.controls)) - cost(sample, mine.controls)
@@ -113,11 +110,11 @@ def test_random_programs_agree_with_clarabel(seed, stages, weight, one_norm):
         random.normal(size=(stages + 1, bounds)),
         weight * random.uniform(0.5, 2.0, (stages + 1, bounds)),
     )
-    start = random.normal(size=6)
-    mine = qp_solvers.own(program, stages, start, 1e-10)
-    other = qp_solvers.clarabel(qp_solvers.sparse_program(program, stages, start), 1e-9)
+    sample = Sample("random", program, stages, random.normal(size=6), 0.0)
+    mine = qp_solvers.own(sample, 1e-10)
+    other = qp_solvers.clarabel(qp_solvers.sparse_program(sample), 1e-9)
     assert mine.solved
-    costs = [qp_solvers.cost(program, stages, start, x.controls) for x in (mine, other)]
+    costs = [cost(sample, x.controls) for x in (mine, other)]
     assert costs[0] <= costs[1] + 1e-6 * (1.0 + abs(costs[1]))
 
 

@@ -7,6 +7,9 @@ from matplotlib.figure import Figure
 
 from smallsat.results import write_table
 
+# What functions that draw return: the figure, and the tidy table of exactly what it shows.
+Drawing = tuple[Figure, pd.DataFrame]
+
 FORMATS = ("svg", "pdf", "png")
 _METADATA: dict[str, dict[str, None]] = {
     "svg": {"Date": None},

@@ -1,4 +1,4 @@
-"""A stage-wise primal-dual interior-point method for the quadratic programs of the guidance law.
+"""A primal-dual interior-point method for the guidance law's programs, by a Riccati recursion.
 
 The problem, in scaled units in which every control lies in [-1, 1]:
 
@@ -551,10 +551,10 @@ def solve(program, stages, start, work, tolerance, iteration_limit):
     work
         Memory of the method, see `workspace`; nothing in it is read before it is written.
     tolerance
-        Of the complementarity and of the stationarity, relative to the largest gradient in a
-        control where no control acts.
+        Tolerance of the complementarity and of the stationarity, relative to the largest gradient
+        in a control where no control acts.
     iteration_limit
-        Most steps.
+        Largest number of steps.
 
     Returns
     -------

@@ -21,11 +21,10 @@ from smallsat.studies.rendezvous.figures.cases import (
     PHASE_COLOURS,
     PHASE_TITLES,
     ZONE,
-    turned,
 )
 from smallsat.studies.rendezvous.guidance.law import PHASES, Law
 from smallsat.studies.rendezvous.model.columns import CHANGE, STATE
-from smallsat.studies.rendezvous.parameters import law
+from smallsat.studies.rendezvous.parameters import law as law_of
 
 SIZE = (960, 544)  # multiples of 16, as the encoder asks for
 DPI = 100
@@ -38,17 +37,17 @@ def frames(
     section: Config, case: str, flights: pd.DataFrame, paths: pd.DataFrame
 ) -> Iterator[bytes]:
     """RGBA pictures of a case, each of `SIZE` pixels."""
-    given = law(section, case)
+    law = law_of(section, case)
     flight = flights[flights["flight"] == case]
     path = paths[paths["flight"] == case]
     with mpl.rc_context({"figure.constrained_layout.use": False, "font.size": 11}):
-        for place, phase in enumerate(PHASES):
+        for number, phase in enumerate(PHASES):
             own = path[path["phase"] == phase]
             if own.empty:
                 continue
             figure = Figure(figsize=(SIZE[0] / DPI, SIZE[1] / DPI), dpi=DPI)
             canvas = FigureCanvasAgg(figure)
-            scene = _Scene(figure, given, place, own)
+            scene = _Scene(figure, law, number, own)
             canvas.draw()
             still = canvas.copy_from_bbox(figure.bbox)
             steps = flight[flight["phase"] == phase]
@@ -61,13 +60,13 @@ def frames(
 class _Scene:
     """One phase's view: the still parts drawn, the moving ones as animated artists."""
 
-    def __init__(self, figure: Figure, given: Law, place: int, path: pd.DataFrame) -> None:
-        self.figure, self.given, self.place = figure, given, place
+    def __init__(self, figure: Figure, law: Law, phase: int, path: pd.DataFrame) -> None:
+        self.figure, self.law, self.phase = figure, law, phase
         points = path[STATE[:3]].to_numpy()[:, [1, 0, 2]]
         low, high = np.minimum(points.min(axis=0), 0.0), np.maximum(points.max(axis=0), 0.0)
         reach = float((high - low).max())
-        if place == 0:
-            reach = max(reach, 2.6 * given.keep_out)
+        if phase == 0:
+            reach = max(reach, 2.6 * law.keep_out)
         middle, half = (low + high) / 2.0, 0.5 * reach
         axes: Axes3D = figure.add_axes(
             (0.0, 0.05, 1.0, 0.88), projection="3d", computed_zorder=False
@@ -85,19 +84,19 @@ class _Scene:
         axes.tick_params(labelsize=7)
         axes.locator_params(nbins=4)
         self.axes, self.scale = axes, reach
-        if place == 0:
-            _sphere(axes, given.keep_out)
-        length = {0: 1.6 * given.keep_out, 1: reach, 2: reach}[place]
+        if phase == 0:
+            _sphere(axes, law.keep_out)
+        length = {0: 1.6 * law.keep_out, 1: reach, 2: reach}[phase]
         _cone(
             axes,
-            turned(given, float(path["time_s"].min())),
-            given.cone_angles[place],
-            given.port if place == 2 else 0.0,
+            law.axis_at(float(path["time_s"].min())),
+            law.cone_angles[phase],
+            law.port if phase == 2 else 0.0,
             length,
         )
         axes.plot([0.0], [0.0], [0.0], "ks", ms=5)
         figure.text(0.01, 0.015, INFERRED, fontsize=8, color="0.4")
-        colour = PHASE_COLOURS[PHASES[place]]
+        colour = PHASE_COLOURS[PHASES[phase]]
         self.title = figure.text(0.5, 0.94, "", ha="center", animated=True)
         self.track = axes.plot([], [], [], color=colour, lw=1.8, animated=True)[0]
         self.chaser = axes.plot([], [], [], "o", color="black", ms=6, animated=True)[0]
@@ -114,8 +113,8 @@ class _Scene:
         here = points[-1]
         step = steps[steps["time_s"] <= time + 1e-9].iloc[-1]
         change = step[CHANGE].to_numpy(dtype=float)[[1, 0, 2]]
-        bound = self.given.control_bounds[self.place]
-        name = PHASES[self.place]
+        bound = self.law.control_bounds[self.phase]
+        name = PHASES[self.phase]
         self.title.set_text(
             f"Case 1, t = {time:.0f} s: {PHASE_TITLES[name]}, {np.linalg.norm(here):.4g} m away"
         )
@@ -123,9 +122,9 @@ class _Scene:
         self.chaser.set_data_3d(*here[:, None])
         tip = here + 0.12 * self.scale * change / bound
         self.thrust.set_data_3d(*np.array([here, tip]).T)
-        self.plane.set_visible(self.place == 0)
-        if self.place == 0:
-            self.plane.set_verts([_square(here / np.linalg.norm(here), self.given.keep_out)])
+        self.plane.set_visible(self.phase == 0)
+        if self.phase == 0:
+            self.plane.set_verts([_square(here / np.linalg.norm(here), self.law.keep_out)])
             self.plane.do_3d_projection()
         for artist in (self.plane, self.track, self.thrust, self.chaser, self.title):
             self.figure.draw_artist(artist)

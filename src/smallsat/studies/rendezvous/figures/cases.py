@@ -3,18 +3,16 @@
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon
 from matplotlib.pyplot import figure as new_figure
 from matplotlib.pyplot import subplots
 
 from smallsat.config import Config
+from smallsat.drawing.figure import Drawing
 from smallsat.dynamics.units import MINUTE
-from smallsat.studies.rendezvous.guidance.law import PHASES, Law
+from smallsat.studies.rendezvous.guidance.law import PHASES
 from smallsat.studies.rendezvous.model.columns import CHANGE
-from smallsat.studies.rendezvous.parameters import law
-
-Drawing = tuple[Figure, pd.DataFrame]
+from smallsat.studies.rendezvous.parameters import law as law_of
 
 PHASE_COLOURS = {"far": "C0", "mid": "C2", "final": "C1"}
 PHASE_TITLES = {"far": "far range", "mid": "mid range", "final": "final approach"}
@@ -53,17 +51,9 @@ def draw_cone(axes: Axes, axis, half_angle: float, tip: float, length: float, al
     )
 
 
-def turned(given: Law, time: float) -> np.ndarray:
-    """The approach axis at a time, s."""
-    angle = given.rotation_rate * time
-    c, s = np.cos(angle), np.sin(angle)
-    x, y, z = given.axis
-    return np.array([c * x - s * y, s * x + c * y, z])
-
-
 def manoeuvre(section: Config, case: str, flights: pd.DataFrame, paths: pd.DataFrame) -> Drawing:
     """One case: the way in the orbit's plane at three scales, and the thrust over time."""
-    given = law(section, case)
+    law = law_of(section, case)
     flight = flights[flights["flight"] == case]
     path = paths[paths["flight"] == case]
     figure = new_figure(figsize=(6.3, 5.4))
@@ -74,25 +64,25 @@ def manoeuvre(section: Config, case: str, flights: pd.DataFrame, paths: pd.DataF
     starts = {phase: _first(flight, phase) for phase in PHASES}
     ends = {"far": starts["mid"], "mid": starts["final"], "final": flight.iloc[-1]}
     _way(wide, path)
-    draw_zone(wide, given.keep_out)
+    draw_zone(wide, law.keep_out)
     reach = np.hypot(ends["far"]["x_m"], ends["far"]["y_m"])
-    draw_cone(wide, turned(given, ends["far"]["time_s"]), given.cone_angles[0], 0.0, 1.2 * reach)
+    draw_cone(wide, law.axis_at(ends["far"]["time_s"]), law.cone_angles[0], 0.0, 1.2 * reach)
     _arrows(wide, flight[flight["phase"] == "far"], 700.0)
     wide.set_title("whole manoeuvre")
 
     _way(near, path[path["phase"] != "far"])
     for moment, alpha in ((ends["far"]["time_s"], 0.2), (ends["mid"]["time_s"], 0.5)):
-        draw_cone(near, turned(given, moment), given.cone_angles[1], 0.0, 1.1 * reach, alpha)
-    near.add_patch(Circle((0, 0), given.overshoot, fc="none", ec="0.3", lw=0.8))
+        draw_cone(near, law.axis_at(moment), law.cone_angles[1], 0.0, 1.1 * reach, alpha)
+    near.add_patch(Circle((0, 0), law.overshoot, fc="none", ec="0.3", lw=0.8))
     _arrows(near, flight[flight["phase"] == "mid"], 0.55 * reach)
     near.set_title("mid range")
 
     _way(dock, path[path["phase"] == "final"])
     limit = np.hypot(ends["mid"]["x_m"], ends["mid"]["y_m"])
     for moment, alpha in ((ends["mid"]["time_s"], 0.2), (ends["final"]["time_s"], 0.5)):
-        axis = turned(given, moment)
-        draw_cone(dock, axis, given.cone_angles[2], given.port, 1.1 * limit, alpha)
-        dock.plot(given.port * axis[1], given.port * axis[0], "k^", ms=4, zorder=4)
+        axis = law.axis_at(moment)
+        draw_cone(dock, axis, law.cone_angles[2], law.port, 1.1 * limit, alpha)
+        dock.plot(law.port * axis[1], law.port * axis[0], "k^", ms=4, zorder=4)
     dock.set_title("final approach")
     for axes, phase in ((near, "mid"), (dock, "final")):
         if not (flight["phase"] == phase).any():
@@ -138,7 +128,7 @@ def thrust_history(section: Config, flight: pd.DataFrame) -> pd.DataFrame:
 
 def comparison(section: Config, flights: pd.DataFrame, paths: pd.DataFrame) -> Drawing:
     """Figure 3.6: the far range with and without set point, and as a linear program."""
-    given = law(section, "v-bar")
+    law = law_of(section, "v-bar")
     figure, (wide, near) = subplots(1, 2, figsize=(6.3, 3.5))
     drawn = []
     for case, colour in CASE_COLOURS.items():
@@ -148,16 +138,16 @@ def comparison(section: Config, flights: pd.DataFrame, paths: pd.DataFrame) -> D
         seconds = float(flights[flights["flight"] == case]["time_s"].iloc[-1])
         minutes = seconds / MINUTE
         # The time limit ends what has no room for a step more.
-        in_time = seconds + given.sample_times[2] <= given.time_limit
+        in_time = seconds + law.sample_times[2] <= law.time_limit
         docked = in_time and (flights[flights["flight"] == case]["phase"] == "final").any()
         label = f"{CASE_TITLES[case]}: " + (f"{minutes:.1f} min" if docked else "does not dock")
         for axes in (wide, near):
             axes.plot(path["y_m"], path["x_m"], color=colour, lw=1.1, label=label)
         drawn.append(path)
-    edge = 1.9 * given.keep_out
+    edge = 1.9 * law.keep_out
     for axes in (wide, near):
-        draw_zone(axes, given.keep_out)
-        draw_cone(axes, np.array(given.axis), given.cone_angles[0], 0.0, 1.6 * given.keep_out)
+        draw_zone(axes, law.keep_out)
+        draw_cone(axes, np.array(law.axis), law.cone_angles[0], 0.0, 1.6 * law.keep_out)
         axes.plot(0.0, 0.0, "ks", ms=3)
         axes.set_xlabel("along track $y$ [m]")
         axes.locator_params(nbins=5)

@@ -2,14 +2,13 @@
 
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
 from matplotlib.pyplot import subplots
 from matplotlib.ticker import NullFormatter
 
 from smallsat.config import Config
+from smallsat.drawing.figure import Drawing
 from smallsat.studies.rendezvous.inference.search import parameter_names
 
-Drawing = tuple[Figure, pd.DataFrame]
 TITLES = {
     "keep_out_m": "$r_1$ [m]",
     "set_point_1": "set point 1 / $r_1$",
@@ -28,13 +27,13 @@ TITLES = {
 def residuals(table: pd.DataFrame) -> Drawing:
     """Every cell's residual with the configured set, in assumed errors."""
     figure, axes = subplots(figsize=(6.3, 4.4))
-    place = np.arange(len(table))[::-1]
+    lines = np.arange(len(table))[::-1]
     colours = [
         "C0" if cell.endswith("steps") or cell.endswith("time") else "C1" for cell in table["cell"]
     ]
-    axes.barh(place, table["residual"], color=colours, height=0.65)
-    axes.set_yticks(place, table["cell"], fontsize=7)
-    for at, row in zip(place, table.to_dict("records"), strict=True):
+    axes.barh(lines, table["residual"], color=colours, height=0.65)
+    axes.set_yticks(lines, table["cell"], fontsize=7)
+    for at, row in zip(lines, table.to_dict("records"), strict=True):
         text = f"{row['printed']:g} / {row['computed']:.4g}"
         axes.text(1.01, at, text, transform=axes.get_yaxis_transform(), fontsize=7, va="center")
     axes.axvline(0.0, color="black", lw=0.8)
@@ -76,14 +75,14 @@ def profiles(section: Config, evaluated: pd.DataFrame, table: pd.DataFrame) -> D
 def readings(table: pd.DataFrame) -> Drawing:
     """Least misfit that each structural reading allows."""
     figure, axes = subplots(figsize=(5.6, 3.6))
-    place = np.arange(len(table))[::-1]
+    lines = np.arange(len(table))[::-1]
     questions = list(dict.fromkeys(table["question"]))
     colours = [f"C{questions.index(question) % 2}" for question in table["question"]]
-    axes.barh(place, table["misfit"], color=colours, height=0.65)
+    axes.barh(lines, table["misfit"], color=colours, height=0.65)
     labels = [
         f"{row['question'].replace('_', ' ')}: {row['reading']}" for row in table.to_dict("records")
     ]
-    axes.set_yticks(place, labels, fontsize=7)
+    axes.set_yticks(lines, labels, fontsize=7)
     axes.set_xscale("log")
     axes.set_xticks([30, 100, 300, 1000], ["30", "100", "300", "1000"])
     axes.xaxis.set_minor_formatter(NullFormatter())

@@ -8,14 +8,12 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
 from matplotlib.pyplot import subplots
 
-from smallsat.drawing.style import BLACK, BLUE, ORANGE, VERMILION
+from smallsat.drawing.figure import Drawing
+from smallsat.drawing.style import BLACK, BLUE, GREY, ORANGE, VERMILION
 from smallsat.dynamics.units import HOUR, MINUTE
 
-Drawing = tuple[Figure, pd.DataFrame]
-GREY = "#9a9a9a"
 # Of Section 5.1: the range "within 1 sigma", and the bounds that Figure 5.1 dots.
 STATED_PCT, SIGMAS = 7.0, 3.0
 

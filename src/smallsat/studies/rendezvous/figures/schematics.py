@@ -6,10 +6,10 @@ Each function returns the figure and the table of what it draws.
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.pyplot import subplots
 
 from smallsat.config import Config
+from smallsat.drawing.figure import Drawing
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
 from smallsat.dynamics.units import KM
 from smallsat.studies.rendezvous.figures.cases import (
@@ -25,23 +25,22 @@ from smallsat.studies.rendezvous.model.columns import CHANGE, STATE
 from smallsat.studies.rendezvous.model.environment import orbit_radius
 from smallsat.studies.rendezvous.model.geometry import keep_out_normals
 from smallsat.studies.rendezvous.model.prediction import transition
-from smallsat.studies.rendezvous.parameters import law
+from smallsat.studies.rendezvous.parameters import law as law_of
 
-Drawing = tuple[Figure, pd.DataFrame]
 EARTH_RADIUS_M = 6378137.0
 # Planes of a horizon that are drawn, counted from the chaser.
 DRAWN_PLANES = 7
 
 
 def predicted(
-    given: Law, phase: int, state: np.ndarray, time: float
+    law: Law, phase: int, state: np.ndarray, time: float
 ) -> tuple[np.ndarray, np.ndarray]:
     """States, (N + 1, 6), and velocity changes, (N, 3), that the law plans from a state."""
-    record = settings([given])[0]
-    stages = given.horizons[phase]
+    record = settings([law])[0]
+    stages = law.horizons[phase]
     memory = memory_for(stages)
     next_control(record, phase, state, time, memory, np.zeros(3))
-    matrix = transition(rate_matrix(given.mean_motion), given.sample_times[phase])
+    matrix = transition(rate_matrix(law.mean_motion), law.sample_times[phase])
     states = [state]
     for change in memory.plan:
         moved = states[-1].copy()
@@ -52,8 +51,8 @@ def predicted(
 
 def frame(section: Config) -> Drawing:
     """Figure 2.1: the target's frame on its orbit, and the chaser at the start of the cases."""
-    given = law(section, "v-bar")
-    radius = orbit_radius(given.mean_motion)
+    law = law_of(section, "v-bar")
+    radius = orbit_radius(law.mean_motion)
     earth = EARTH_RADIUS_M
     figure, axes = subplots(figsize=(4.6, 4.0))
     turn = np.radians(np.linspace(55.0, 125.0, 141))
@@ -100,14 +99,14 @@ def frame(section: Config) -> Drawing:
 
 def horizon(section: Config, flights: pd.DataFrame) -> Drawing:
     """Figure 2.2: past, plan and what was flown along the approach axis in Case 1's mid range."""
-    given = law(section, "v-bar")
+    law = law_of(section, "v-bar")
     own = flights[(flights["flight"] == "v-bar") & (flights["phase"] != "far")]
     mid = own[own["phase"] == "mid"]
     if mid.empty:
         return _missing("Case 1 does not come to its mid range")
     now = mid.iloc[len(mid) // 3]
-    states, changes = predicted(given, 1, now[STATE].to_numpy(dtype=float), float(now["time_s"]))
-    step = given.sample_times[1]
+    states, changes = predicted(law, 1, now[STATE].to_numpy(dtype=float), float(now["time_s"]))
+    step = law.sample_times[1]
     time = (np.arange(len(states))) * step
     past = mid[mid["time_s"] <= now["time_s"]]
     later = own[(own["time_s"] >= now["time_s"]) & (own["time_s"] <= now["time_s"] + time[-1])]
@@ -117,10 +116,10 @@ def horizon(section: Config, flights: pd.DataFrame) -> Drawing:
     top.plot(past["time_s"] - now["time_s"], past["y_m"], "o-", color="black", ms=3.5, label="past")
     top.plot(time, states[:, 1], "o--", color="C0", ms=3.5, mfc="white", label="plan at $t_k$")
     top.plot(later["time_s"] - now["time_s"], later["y_m"], color="C1", lw=1.0, label="then flown")
-    top.axhline(given.overshoot, color="0.5", lw=0.8, ls=":")
+    top.axhline(law.overshoot, color="0.5", lw=0.8, ls=":")
     top.text(
         0.99,
-        given.overshoot + 1.5,
+        law.overshoot + 1.5,
         "$r_2$ (inferred)",
         transform=top.get_yaxis_transform(),
         ha="right",
@@ -135,7 +134,7 @@ def horizon(section: Config, flights: pd.DataFrame) -> Drawing:
         0.0, changes[0, 1], "o", color="C1", ms=6, mfc="none", label="applied: the first one"
     )
     for sign in (-1, 1):
-        bottom.axhline(sign * given.control_bounds[1], color="0.5", lw=0.8, ls=":")
+        bottom.axhline(sign * law.control_bounds[1], color="0.5", lw=0.8, ls=":")
     bottom.set(xlabel="time from $t_k$ [s]", ylabel=r"$\Delta v_y$ [m/s]")
     bottom.legend(loc="lower right")
     for axes in (top, bottom):
@@ -164,31 +163,29 @@ def _missing(words: str) -> Drawing:
 
 def phases(section: Config, flights: pd.DataFrame, paths: pd.DataFrame) -> Drawing:
     """Figure 3.1: keep-out zone, approach cone, overshoot plane and docking cone, at two scales."""
-    given = law(section, "v-bar")
-    axis = np.array(given.axis)
+    law = law_of(section, "v-bar")
+    axis = np.array(law.axis)
     path = paths[paths["flight"] == "v-bar"]
     figure, (wide, near) = subplots(1, 2, figsize=(6.3, 3.4))
-    reach = 1.9 * given.keep_out
-    limit = 2.1 * given.overshoot
-    draw_zone(wide, given.keep_out)
-    draw_cone(wide, axis, given.cone_angles[0], 0.0, 1.7 * given.keep_out)
+    reach = 1.9 * law.keep_out
+    limit = 2.1 * law.overshoot
+    draw_zone(wide, law.keep_out)
+    draw_cone(wide, axis, law.cone_angles[0], 0.0, 1.7 * law.keep_out)
     wide.plot([0.0], [0.0], "ks", ms=4)
     wide.set(xlim=(-0.85 * reach, 1.15 * reach), ylim=(-reach, reach), aspect="equal")
     wide.set_title("rendezvous and approach")
-    draw_cone(near, axis, given.cone_angles[1], 0.0, 1.6 * limit, 0.3)
-    draw_cone(near, axis, given.cone_angles[2], given.port, 1.6 * limit)
-    near.axvline(given.overshoot, color="0.35", lw=1.0, ls="--")
-    near.text(given.overshoot, 0.68 * limit / 2, " $r_2$: overshoot\n plane", fontsize=8)
+    draw_cone(near, axis, law.cone_angles[1], 0.0, 1.6 * limit, 0.3)
+    draw_cone(near, axis, law.cone_angles[2], law.port, 1.6 * limit)
+    near.axvline(law.overshoot, color="0.35", lw=1.0, ls="--")
+    near.text(law.overshoot, 0.68 * limit / 2, " $r_2$: overshoot\n plane", fontsize=8)
     near.plot([0.0], [0.0], "ks", ms=6)
-    near.plot(given.port, 0.0, "^", color="C3", ms=5)
-    near.text(given.port, -0.24 * limit / 2, "port", fontsize=8, color="C3", ha="center")
+    near.plot(law.port, 0.0, "^", color="C3", ms=5)
+    near.text(law.port, -0.24 * limit / 2, "port", fontsize=8, color="C3", ha="center")
     near.set(xlim=(-0.25 * limit, limit), ylim=(-limit / 2, limit / 2))
     near.set_title("approach and docking")
-    wide.text(0.0, -0.6 * given.keep_out, "keep-out\nzone $r_1$", ha="center", fontsize=8)
-    wide.text(
-        1.35 * given.keep_out, 0.33 * given.keep_out, "approach\ncone", ha="center", fontsize=8
-    )
-    points = {0: given.set_points[0], 1: given.set_points[1]}
+    wide.text(0.0, -0.6 * law.keep_out, "keep-out\nzone $r_1$", ha="center", fontsize=8)
+    wide.text(1.35 * law.keep_out, 0.33 * law.keep_out, "approach\ncone", ha="center", fontsize=8)
+    points = {0: law.set_points[0], 1: law.set_points[1]}
     wide.plot(points[0], 0.0, "x", color="black", ms=6)
     near.plot(points[1], 0.0, "x", color="black", ms=6)
     for axes in (wide, near):
@@ -209,16 +206,16 @@ def phases(section: Config, flights: pd.DataFrame, paths: pd.DataFrame) -> Drawi
     figure.legend(handles, labels, loc="outside lower center", ncols=3)
     figure.suptitle(f"crosses: set points; {INFERRED}", fontsize=7, color="0.4")
     rows = [
-        ("keep-out radius r1 [m]", given.keep_out),
-        ("overshoot distance r2 [m]", given.overshoot),
-        ("port [m]", given.port),
+        ("keep-out radius r1 [m]", law.keep_out),
+        ("overshoot distance r2 [m]", law.overshoot),
+        ("port [m]", law.port),
         *[
             (f"half angle, {PHASE_TITLES[name]} [deg]", np.degrees(angle))
-            for name, angle in zip(PHASES, given.cone_angles, strict=True)
+            for name, angle in zip(PHASES, law.cone_angles, strict=True)
         ],
         *[
             (f"set point, {PHASE_TITLES[name]} [m]", point)
-            for name, point in zip(PHASES, given.set_points, strict=False)
+            for name, point in zip(PHASES, law.set_points, strict=False)
         ],
     ]
     return figure, pd.DataFrame(rows, columns=["item", "value"])
@@ -226,25 +223,25 @@ def phases(section: Config, flights: pd.DataFrame, paths: pd.DataFrame) -> Drawi
 
 def rotating_planes(section: Config, flights: pd.DataFrame) -> Drawing:
     """Figure 3.2: the planes of one horizon of the run that is guided around the zone."""
-    given = law(section, "no-set-point")
+    law = law_of(section, "no-set-point")
     own = flights[(flights["flight"] == "no-set-point") & (flights["phase"] == "far")]
     distance = np.hypot(own["x_m"], own["y_m"])
-    near = own[distance < 1.15 * given.keep_out]
+    near = own[distance < 1.15 * law.keep_out]
     now = near.iloc[len(near) // 3] if len(near) else own.iloc[len(own) // 2]
     state, time = now[STATE].to_numpy(dtype=float), float(now["time_s"])
-    stages = given.horizons[0]
+    stages = law.horizons[0]
     normals = np.empty((stages + 1, 3))
     keep_out_normals(
-        state[:3], state[3:], np.array(given.axis), stages,
-        given.plane_rate * given.mean_motion * given.sample_times[0], given.plane_rule, normals,
+        state[:3], state[3:], np.array(law.axis), stages,
+        law.plane_rate * law.mean_motion * law.sample_times[0], law.plane_rule, normals,
     )  # fmt: skip
-    states, _ = predicted(given, 0, state, time)
+    states, _ = predicted(law, 0, state, time)
     figure, axes = subplots(figsize=(4.8, 4.4))
-    draw_zone(axes, given.keep_out)
-    draw_cone(axes, np.array(given.axis), given.cone_angles[0], 0.0, 1.7 * given.keep_out)
+    draw_zone(axes, law.keep_out)
+    draw_cone(axes, np.array(law.axis), law.cone_angles[0], 0.0, 1.7 * law.keep_out)
     chosen = np.unique(np.linspace(0, stages, DRAWN_PLANES).astype(int))
     rows = []
-    _planes(axes, normals[chosen], given.keep_out)
+    _planes(axes, normals[chosen], law.keep_out)
     axes.plot(states[:, 1], states[:, 0], "o-", color="C1", ms=2.5, lw=0.9, label="planned states")
     axes.plot(states[chosen, 1], states[chosen, 0], "o", color="C1", ms=5, mfc="white", zorder=4)
     for i in chosen:
@@ -260,7 +257,7 @@ def rotating_planes(section: Config, flights: pd.DataFrame) -> Drawing:
             }
         )
     axes.plot(0.0, 0.0, "ks", ms=4)
-    edge = 1.75 * given.keep_out
+    edge = 1.75 * law.keep_out
     axes.set(
         xlim=(-edge, edge),
         ylim=(-edge, edge),

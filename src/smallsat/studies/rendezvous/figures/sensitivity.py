@@ -15,16 +15,15 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.pyplot import subplots
 
-from smallsat.drawing.style import BLACK, BLUE, GREEN, ORANGE, VERMILION
+from smallsat.drawing.figure import Drawing
+from smallsat.drawing.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION
 from smallsat.dynamics.units import KM, MINUTE
 from smallsat.studies.rendezvous.monte_carlo.cases import PHASES, sweep_case
 from smallsat.studies.rendezvous.monte_carlo.tables import column, totals
 
-Drawing = tuple[Figure, pd.DataFrame]
 # Hundreds of dots a colour stay readable when each is small and lets the others through.
 DOT: dict[str, Any] = {"s": 7.0, "alpha": 0.45, "linewidths": 0.0}
 QUADRANT_COLOURS = {1: BLUE, 2: GREEN, 3: ORANGE, 4: VERMILION}
-GREY = "#9a9a9a"
 QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
 RINGS_KM = (0.15, 0.5, 1.0, 1.5, 2.0, 2.5)
 

@@ -61,7 +61,7 @@ class Control(NamedTuple):
     Attributes
     ----------
     status, iterations
-        Of the solver, see `riccati_interior_point.Solution`.
+        How the solver ended and its steps, see `riccati_interior_point.Solution`.
     softened
         Number of hard rows that gave way.
     outside
@@ -98,7 +98,7 @@ def next_control(law, phase, state, time, memory, command):
     law, phase, state, time
         `SETTINGS` record; 0, 1 or 2; relative state (6,), m and m/s; s.
     memory
-        Of `memory_for`, the same for all steps of a manoeuvre.
+        What `memory_for` returned, the same for all steps of a manoeuvre.
     command
         Filled.
 
@@ -151,9 +151,9 @@ def phase_ended(law, phase, state, time):
     along, distance = _offset(law, phase, state, time, axis)
     if phase == RENDEZVOUS and not in_cone(state, axis, law.tangents[phase]):
         return False
-    if law.switch_kinds[phase] == CONE_ONLY:
+    if law.switches[phase] == CONE_ONLY:
         return True
-    if law.switch_kinds[phase] == DISTANCE:
+    if law.switches[phase] == DISTANCE:
         return distance <= law.switch_distances[phase]
     return along <= law.switch_distances[phase]
 

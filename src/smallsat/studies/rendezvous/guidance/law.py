@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
-from smallsat.studies.rendezvous.model.geometry import NATURAL
+from smallsat.studies.rendezvous.model.geometry import NATURAL, rotated
 from smallsat.studies.rendezvous.model.prediction import terminal_weight, transition
 
 PHASES = ("far", "mid", "final")
@@ -44,7 +44,7 @@ SETTINGS = np.dtype(
         ("overshoot", float),
         ("plane_rate", float),
         ("plane_rule", np.int64),
-        ("switch_kinds", np.int64, (3,)),
+        ("switches", np.int64, (3,)),
         ("switch_distances", float, (3,)),
         ("set_point_time", np.int64),
         ("terminal_cone_time", np.int64),
@@ -57,6 +57,12 @@ SETTINGS = np.dtype(
     ],
     align=True,
 )
+# Fields of a record that are those of the law.
+AS_THEY_ARE = (
+    "horizons", "sample_times", "control_bounds", "speed_bound", "axis", "rotation_rate", "port",
+    "set_points", "keep_out", "overshoot", "plane_rule", "switches", "switch_distances",
+    "set_point_time", "terminal_cone_time", "reference_moves", "time_limit",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -66,7 +72,7 @@ class Law:
     Attributes
     ----------
     mean_motion
-        Of the target, rad/s.
+        Mean motion of the target, rad/s.
     sample_times, horizons
         s; steps.
     state_weights, control_weights
@@ -89,19 +95,19 @@ class Law:
     switch_distances
         m.
     speed_bound
-        Of each component in the final phase, m/s.
+        Largest velocity along each axis in the final phase, m/s.
     axis
         Approach axis at the start, unit vector.
     rotation_rate
-        Of the target about z, rad/s.
+        Turn of the target, and with it of the approach axis, about z, rad/s.
     port
-        Of docking, m from the target on the axis.
+        Distance of the docking port from the target on the axis, m.
     plane_rate
         Largest rotation rate of the keep-out plane in mean motions.
     plane_rule
         `geometry.SHORTEST`, `NATURAL` or `CURRENT`.
     norm_weights, norm_terminal_weights, norm_control_weights
-        Of the far range's 1-norm cost (2.10): diagonals (6,), (6,), (3,); ``None``: quadratic.
+        Diagonals of the far range's 1-norm cost (2.10), (6,), (6,), (3,); ``None``: quadratic.
     set_point_time, terminal_cone_time
         When a rotating set point and the far range's cone and planes are taken.
     reference_moves
@@ -151,9 +157,15 @@ class Law:
         """The same law with some attributes changed."""
         return replace(self, **changes)
 
+    def axis_at(self, time: float) -> np.ndarray:
+        """The approach axis at a time, s: unit vector (3,) in the Hill frame."""
+        axis = np.empty(3)
+        rotated(np.array(self.axis), self.rotation_rate * time, axis)
+        return axis
+
 
 def settings(laws: Sequence[Law]) -> np.ndarray:
-    """One `SETTINGS` record a law, with scaled matrices.
+    """One record a law, shape (L,) of `SETTINGS`, with scaled matrices.
 
     Positions are scaled by the way that a full control makes over the horizon, velocities by the
     control's bound, costs by the terminal weight.
@@ -181,8 +193,6 @@ def _fill(record: Any, law: Law) -> None:
             terminal = terminal_weight(step, weights, control)
         terminal = 2.0 * terminal * np.outer(scale, scale)
         cost = 1.0 / np.abs(terminal).max()
-        record["horizons"][phase] = horizon
-        record["sample_times"][phase] = duration
         record["transitions"][phase] = step * scale[None, :] / scale[:, None]
         record["scales"][phase] = scale
         record["state_hessians"][phase] = 2.0 * cost * weights * scale**2
@@ -190,10 +200,7 @@ def _fill(record: Any, law: Law) -> None:
         record["control_hessians"][phase] = 2.0 * cost * np.asarray(control) * bound**2
         record["penalties"][phase] = law.penalties[phase] * length * cost
         record["hard_weights"][phase] = HARD_WEIGHT * max(reaches[phase] / length, 1.0)
-        record["control_bounds"][phase] = bound
         record["tangents"][phase] = np.tan(law.cone_angles[phase])
-        record["switch_kinds"][phase] = law.switches[phase]
-        record["switch_distances"][phase] = law.switch_distances[phase]
         record["drifts_before"][phase] = transition(true_matrix, law.delay)
         record["drifts_after"][phase] = transition(true_matrix, duration - law.delay)
         known = law.delay if law.delay_known else 0.0
@@ -211,16 +218,6 @@ def _fill(record: Any, law: Law) -> None:
         record["norm_control_weights"] = cost * control
         record["penalties"][0] = law.penalties[0] * scale[0] * cost
         record["hard_weights"][0] = HARD_WEIGHT * law.horizons[0]
-    record["speed_bound"] = law.speed_bound
-    record["axis"] = law.axis
-    record["rotation_rate"] = law.rotation_rate
-    record["port"] = law.port
-    record["set_points"] = law.set_points
-    record["keep_out"] = law.keep_out
-    record["overshoot"] = law.overshoot
     record["plane_rate"] = law.plane_rate * law.mean_motion
-    record["plane_rule"] = law.plane_rule
-    record["set_point_time"] = law.set_point_time
-    record["terminal_cone_time"] = law.terminal_cone_time
-    record["reference_moves"] = law.reference_moves
-    record["time_limit"] = law.time_limit
+    for name in AS_THEY_ARE:
+        record[name] = getattr(law, name)

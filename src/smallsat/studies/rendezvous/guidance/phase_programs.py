@@ -114,14 +114,22 @@ def write_program(law, phase, state, time, program):
     Program, bool
         The program, and whether a constraint is violated at the start already.
     """
-    stages = law.horizons[phase]
-    ts = law.sample_times[phase]
-    scale = law.scales[phase]
-    length, speed = scale[0], scale[3]
-    hard = law.hard_weights[phase]
-    penalty = law.penalties[phase]
-    rate = law.rotation_rate
     one_norm = phase == RENDEZVOUS and law.norm_control_weights[0] > 0.0
+    _write_cost(law, phase, time, one_norm, program)
+    if phase == RENDEZVOUS:
+        outside = _write_keep_out(law, state, time, program)
+        return with_bounds(program, 6 if one_norm else 0), outside
+    outside = _write_corridor(law, phase, state, time, program)
+    if phase == APPROACH:
+        return with_bounds(program, 0), outside
+    too_fast = _write_speed_bound(law, state, program)
+    return with_bounds(program, BOUNDS), outside or too_fast
+
+
+@compiled
+def _write_cost(law, phase, time, one_norm, program):
+    """Write the model and the cost, quadratic or the far range's 1-norm, about the reference."""
+    stages = law.horizons[phase]
     for j in range(6):
         for k in range(6):
             program.transition[j, k] = law.transitions[phase, j, k]
@@ -130,16 +138,15 @@ def write_program(law, phase, state, time, program):
     for k in range(3):
         program.control_hessian[k] = 0.0 if one_norm else law.control_hessians[phase, k]
         program.control_norm[k] = law.norm_control_weights[k] if one_norm else 0.0
-
-    # cost
     point = np.empty(6)
     distance = law.port if phase == DOCKING else law.set_points[phase]
     rule = AT_STAGE if phase == DOCKING else law.set_point_time
     for i in range(1, stages + 1):
-        if i == 1 or (rule == AT_STAGE and rate != 0.0):
-            reference(law, distance, rate * _time_of(rule, time, i, stages, ts), point)
+        if i == 1 or (rule == AT_STAGE and law.rotation_rate != 0.0):
+            at = _time_of(rule, time, i, stages, law.sample_times[phase])
+            reference(law, distance, law.rotation_rate * at, point)
             for k in range(6):
-                point[k] /= scale[k]
+                point[k] /= law.scales[phase, k]
         if one_norm:
             for k in range(6):
                 weight = law.norm_weights[k] if i < stages else law.norm_terminal_weights[k]
@@ -158,70 +165,81 @@ def write_program(law, phase, state, time, program):
                     total -= law.terminal_hessians[phase, j, k] * point[k]
                 program.state_gradient[i, j] = total
 
-    # constraints
-    axis = np.empty(3)
-    faces = np.empty((4, 3))
+
+@compiled
+def _set_plane(program, i, p, sign, normal, offset, weight):
+    """Write row `p` on the position at a stage: sign times normal (3,), offset, weight."""
+    for k in range(3):
+        program.normals[i, p, k] = sign * normal[k]
+    program.offsets[i, p] = offset
+    program.plane_weights[i, p] = weight
+
+
+@compiled
+def _write_keep_out(law, state, time, program):
+    """Write the far range's planes, and its cone at the end; return whether the start is inside."""
+    stages, ts, length = law.horizons[0], law.sample_times[0], law.scales[0, 0]
+    axis, faces, normals = np.empty(3), np.empty((4, 3)), np.empty((stages + 1, 3))
+    at = _time_of(law.terminal_cone_time, time, stages, stages, ts)
+    rotated(law.axis, law.rotation_rate * at, axis)
+    keep_out_normals(
+        state[:3], state[3:], axis, stages, law.plane_rate * ts, law.plane_rule, normals
+    )
+    for i in range(1, stages + 1):
+        program.plane_count[i] = 1
+        _set_plane(program, i, 0, -1.0, normals[i], -law.keep_out / length, law.hard_weights[0])
+    if law.penalties[0] > 0.0:
+        program.plane_count[stages] = 5
+        cone_faces(axis, law.tangents[0], faces)
+        for face in range(4):
+            _set_plane(program, stages, 1 + face, 1.0, faces[face], 0.0, law.penalties[0])
+    gap = np.sqrt(state[0] ** 2 + state[1] ** 2 + state[2] ** 2) - law.keep_out
+    return gap < -START_TOLERANCE * length
+
+
+@compiled
+def _write_corridor(law, phase, state, time, program):
+    """Write the cone of each stage, and the mid range's plane; return whether the start is outside.
+
+    Only hard rows count for that.
+    """
+    hard, length = law.hard_weights[phase], law.scales[phase, 0]
+    tip = law.port if phase == DOCKING else 0.0
+    weight = hard if phase == DOCKING else law.penalties[phase]
+    axis, faces = np.empty(3), np.empty((4, 3))
     outside = False
-    if phase == RENDEZVOUS:
-        angle = rate * _time_of(law.terminal_cone_time, time, stages, stages, ts)
-        rotated(law.axis, angle, axis)
-        normals = np.empty((stages + 1, 3))
-        keep_out_normals(
-            state[:3], state[3:], axis, stages, law.plane_rate * ts, law.plane_rule, normals
-        )
-        for i in range(1, stages + 1):
-            program.plane_count[i] = 1
-            for k in range(3):
-                program.normals[i, 0, k] = -normals[i, k]
-            program.offsets[i, 0] = -law.keep_out / length
-            program.plane_weights[i, 0] = hard
-        if penalty > 0.0:
-            cone_faces(axis, law.tangents[0], faces)
-            program.plane_count[stages] = 5
-            for face in range(4):
-                for k in range(3):
-                    program.normals[stages, 1 + face, k] = faces[face, k]
-                program.offsets[stages, 1 + face] = 0.0
-                program.plane_weights[stages, 1 + face] = penalty
-        gap = np.sqrt(state[0] ** 2 + state[1] ** 2 + state[2] ** 2) - law.keep_out
-        outside = gap < -START_TOLERANCE * length
-        return with_bounds(program, 6 if one_norm else 0), outside
-    for i in range(stages + 1):
-        if i == 0 or rate != 0.0:
-            rotated(law.axis, rate * (time + i * ts), axis)
+    for i in range(law.horizons[phase] + 1):
+        if i == 0 or law.rotation_rate != 0.0:
+            rotated(law.axis, law.rotation_rate * (time + i * law.sample_times[phase]), axis)
             cone_faces(axis, law.tangents[phase], faces)
-        tip = law.port if phase == DOCKING else 0.0
-        weight = hard if phase == DOCKING else penalty
         for face in range(4):
             offset = 0.0
             for k in range(3):
-                program.normals[i, face, k] = faces[face, k]
                 offset += faces[face, k] * axis[k]
-            program.offsets[i, face] = tip * offset / length
-            program.plane_weights[i, face] = weight
+            _set_plane(program, i, face, 1.0, faces[face], tip * offset / length, weight)
         program.plane_count[i] = 4
         if phase == APPROACH:
             program.plane_count[i] = 5
+            _set_plane(program, i, 4, -1.0, axis, -law.overshoot / length, hard)
+    for p in range(program.plane_count[0]):
+        if program.plane_weights[0, p] == hard:
+            excess = -program.offsets[0, p]
             for k in range(3):
-                program.normals[i, 4, k] = -axis[k]
-            program.offsets[i, 4] = -law.overshoot / length
-            program.plane_weights[i, 4] = hard
-        if i == 0:
-            for p in range(program.plane_count[0]):
-                if program.plane_weights[0, p] == hard:
-                    excess = -program.offsets[0, p]
-                    for k in range(3):
-                        excess += program.normals[0, p, k] * state[k] / length
-                    outside = outside or excess > START_TOLERANCE
-    if phase == APPROACH:
-        return with_bounds(program, 0), outside
-    for b in range(6):
+                excess += program.normals[0, p, k] * state[k] / length
+            outside = outside or excess > START_TOLERANCE
+    return outside
+
+
+@compiled
+def _write_speed_bound(law, state, program):
+    """Write the bounds on the velocity while docking; return whether the start violates one."""
+    speed, outside = law.scales[DOCKING, 3], False
+    for b in range(BOUNDS):
         program.components[b] = 3 + b // 2
         program.signs[b] = 1.0 - 2.0 * (b % 2)
-        for i in range(1, stages + 1):
+        for i in range(1, law.horizons[DOCKING] + 1):
             program.bounds[i, b] = law.speed_bound / speed
-            program.bound_weights[i, b] = hard
-        outside = outside or (
-            program.signs[b] * state[3 + b // 2] - law.speed_bound > START_TOLERANCE * speed
-        )
-    return with_bounds(program, 6), outside
+            program.bound_weights[i, b] = law.hard_weights[DOCKING]
+        excess = program.signs[b] * state[3 + b // 2] - law.speed_bound
+        outside = outside or excess > START_TOLERANCE * speed
+    return outside

@@ -25,8 +25,15 @@ from smallsat.studies.rendezvous.evidence.case_tables import (
     phase_cells,
     total_cells,
 )
-from smallsat.studies.rendezvous.guidance.law import PHASES, Law
-from smallsat.studies.rendezvous.model.geometry import cone_faces, rotated
+from smallsat.studies.rendezvous.guidance.law import (
+    CONE_ONLY,
+    DISTANCE,
+    DOCKING,
+    PHASES,
+    RENDEZVOUS,
+    Law,
+)
+from smallsat.studies.rendezvous.model.geometry import cone_faces
 from smallsat.studies.rendezvous.parameters import law, start_state
 from smallsat.studies.rendezvous.simulation.closed_loop import Steps, simulate
 from smallsat.studies.rendezvous.simulation.delta_v import READINGS, summed
@@ -88,7 +95,7 @@ def simulate_sets(sections: Sequence[Config], cases: Sequence[str] = FITTED_CASE
     starts = np.array([start_state(section) for section in sections for _ in cases])
     flown = simulate(laws, starts, with_steps=True)
     rows = []
-    for number, given in enumerate(laws):
+    for number in range(len(laws)):
         steps = flown.record(number)
         for phase, name in enumerate(PHASES):
             own = steps.phase == phase
@@ -100,37 +107,37 @@ def simulate_sets(sections: Sequence[Config], cases: Sequence[str] = FITTED_CASE
                     "phase": name,
                     "ended": ended,
                     "steps": int(own.sum()),
-                    "crossing": crossing(given, steps, phase, flown.ends[number, phase])
+                    "crossing": crossing(laws[number], steps, phase, flown.ends[number, phase])
                     if ended
                     else np.nan,
-                    "time_s": float(own.sum() * given.sample_times[phase]),
+                    "time_s": float(own.sum() * laws[number].sample_times[phase]),
                     **{reading: summed(steps.impulse[own], reading) for reading in READINGS},
                 }
             )
     return pd.DataFrame(rows)
 
 
-def crossing(given: Law, steps: Steps, phase: int, end: np.ndarray) -> float:
+def crossing(law: Law, steps: Steps, phase: int, end: np.ndarray) -> float:
     """Steps of a phase until its end condition is met, interpolated within the last one."""
     own = np.flatnonzero(steps.phase == phase)
     last = own[-1]
-    before = _excess(given, phase, steps.state[last], steps.time[last])
-    after = _excess(given, phase, end, steps.time[last] + given.sample_times[phase])
+    before = _excess(law, phase, steps.state[last], steps.time[last])
+    after = _excess(law, phase, end, steps.time[last] + law.sample_times[phase])
     share = before / (before - after) if before > 0.0 > after else 1.0
     return float(len(own) - 1 + min(share, 1.0))
 
 
-def _excess(given: Law, phase: int, state: np.ndarray, time: float) -> float:
+def _excess(law: Law, phase: int, state: np.ndarray, time: float) -> float:
     """How far a state is from ending a phase, m; not positive where it ends it."""
-    axis, faces = np.empty(3), np.empty((4, 3))
-    rotated(np.array(given.axis), given.rotation_rate * time, axis)
-    offset = state[:3] - (given.port * axis if phase == 2 else 0.0)
-    reached = (0.0, float(np.linalg.norm(offset)), float(offset @ axis))[given.switches[phase]]
-    excess = reached - (given.switch_distances[phase] if given.switches[phase] else 0.0)
-    if phase == 0:
-        cone_faces(axis, np.tan(given.cone_angles[0]), faces)
+    axis, faces = law.axis_at(time), np.empty((4, 3))
+    offset = state[:3] - (law.port * axis if phase == DOCKING else 0.0)
+    kind = law.switches[phase]
+    reached = float(np.linalg.norm(offset) if kind == DISTANCE else offset @ axis)
+    excess = 0.0 if kind == CONE_ONLY else reached - law.switch_distances[phase]
+    if phase == RENDEZVOUS:
+        cone_faces(axis, np.tan(law.cone_angles[phase]), faces)
         outside = float(np.max(faces @ state[:3]))
-        return max(outside, excess) if given.switches[0] else outside
+        return outside if kind == CONE_ONLY else max(outside, excess)
     return excess
 
 

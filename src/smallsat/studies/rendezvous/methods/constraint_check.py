@@ -11,7 +11,7 @@ from smallsat.config import Config
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
 from smallsat.studies.rendezvous.guidance.controller import memory_for, next_control, phase_ended
 from smallsat.studies.rendezvous.guidance.law import APPROACH, PHASES, RENDEZVOUS, Law, settings
-from smallsat.studies.rendezvous.model.geometry import cone_faces, rotated
+from smallsat.studies.rendezvous.model.geometry import cone_faces
 from smallsat.studies.rendezvous.model.prediction import transition
 from smallsat.studies.rendezvous.simulation.disturbances import nonlinear_motion
 from smallsat.studies.rendezvous.simulation.motion import (
@@ -40,8 +40,7 @@ def violations(law: Law, phase: int, state: np.ndarray, time: float) -> dict[str
     state, time
         Relative state (6,) in the Hill frame, m and m/s, and when, s.
     """
-    axis, faces = np.empty(3), np.empty((4, 3))
-    rotated(np.array(law.axis), law.rotation_rate * time, axis)
+    axis, faces = law.axis_at(time), np.empty((4, 3))
     cone_faces(axis, np.tan(law.cone_angles[phase]), faces)
     position, velocity = state[:3], state[3:]
     if phase == RENDEZVOUS:

@@ -12,8 +12,8 @@ from typing import Any
 import casadi
 import numpy as np
 
-from smallsat.optimal_control.riccati_interior_point import CONTROLS, STATES, Program
-from smallsat.studies.rendezvous.methods.qp_solvers import Answer, stage_rows, timed
+from smallsat.optimal_control.riccati_interior_point import CONTROLS, STATES
+from smallsat.studies.rendezvous.methods.qp_solvers import Answer, Sample, stage_rows, timed
 
 SPEED = 1  # of the modes in hpipm_common.h; the absolute one has no soft constraints that work
 SUCCESS = 0
@@ -41,16 +41,16 @@ def _created(kind: str, *arguments: Any) -> tuple[ctypes.Array, ctypes.Array]:
     return made, memory
 
 
-def _fields(program: Program, stages: int, start: np.ndarray, i: int) -> dict[str, np.ndarray]:
+def _fields(sample: Sample, i: int) -> dict[str, np.ndarray]:
     """Return what HPIPM is told of a stage.
 
     The state at the start is eliminated; rows are soft constraints, with only their upper side.
     """
     fields: dict[str, Any] = {}
-    a = program.transition
+    program, stages, a = sample.program, sample.stages, sample.program.transition
     if i < stages:
         fields |= {"A": a} if i > 0 else {}
-        fields |= {"B": a[:, 3:], "b": a @ start if i == 0 else np.zeros(STATES)}
+        fields |= {"B": a[:, 3:], "b": a @ sample.start if i == 0 else np.zeros(STATES)}
         fields |= {"R": np.diag(program.control_hessian), "r": np.zeros(CONTROLS)}
         fields |= {
             "idxbu": np.arange(CONTROLS),
@@ -69,11 +69,11 @@ def _fields(program: Program, stages: int, start: np.ndarray, i: int) -> dict[st
     return fields
 
 
-def hpipm(program: Program, stages: int, start: np.ndarray, tolerance: float) -> Answer:
+def hpipm(sample: Sample, tolerance: float) -> Answer:
     """HPIPM: a Riccati-based interior-point method, for quadratic costs."""
-    library = _library()
+    library, stages = _library(), sample.stages
     sizes, sizes_memory = _created("d_ocp_qp_dim", stages)
-    told = [_fields(program, stages, start, i) for i in range(stages + 1)]
+    told = [_fields(sample, i) for i in range(stages + 1)]
     for i, fields in enumerate(told):
         controls, rows = len(fields.get("idxbu", [])), len(fields.get("ug", []))
         states = STATES if i > 0 else 0

@@ -33,6 +33,17 @@ REPETITIONS = 20  # of the stage-wise solver, whose time is too short for the cl
 
 
 @dataclass(frozen=True)
+class Sample:
+    """One program of a closed loop: which kind, the program, its stages, start and hard weight."""
+
+    kind: str
+    program: Program
+    stages: int
+    start: np.ndarray
+    hard_weight: float
+
+
+@dataclass(frozen=True)
 class SparseProgram:
     """minimise z'Pz/2 + q'z  subject to  Ez = e,  Gz <= h,  lower <= z <= upper.
 
@@ -61,9 +72,9 @@ class Answer:
     controls
         Scaled, (N, 3).
     iterations
-        Its own count.
+        The solver's own count.
     seconds
-        Of the processor, for the solution, with the data in its own form already.
+        Processor seconds of the solution, with the data in its own form already.
     """
 
     solved: bool
@@ -97,8 +108,9 @@ def row_list(program: Program, stages: int) -> tuple[np.ndarray, np.ndarray, np.
     return matrix, np.concatenate(limits), np.concatenate(weights)
 
 
-def sparse_program(program: Program, stages: int, start: np.ndarray) -> SparseProgram:
+def sparse_program(sample: Sample) -> SparseProgram:
     """Write a program with states and excesses as unknowns."""
+    program, stages = sample.program, sample.stages
     rows, limits, weights = row_list(program, stages)
     count, controls, states = len(rows), CONTROLS * stages, STATES * stages
     blocks = [np.diag(program.control_hessian)] * stages
@@ -122,7 +134,7 @@ def sparse_program(program: Program, stages: int, start: np.ndarray) -> SparsePr
         "csc",
     )
     equal_to = np.zeros(states)
-    equal_to[:STATES] = a @ start
+    equal_to[:STATES] = a @ sample.start
     inequalities = sparse.hstack([sparse.csc_matrix(rows), -sparse.eye(count)], "csc")
     free = np.full(states, np.inf)
     return SparseProgram(
@@ -220,17 +232,15 @@ def osqp(data: SparseProgram, tolerance: float) -> Answer:
     return _answer(data, solved, result.x, result.info.iter, seconds)
 
 
-def daqp(
-    program: Program, stages: int, start: np.ndarray, hard_weight: float, tolerance: float
-) -> Answer:
+def daqp(sample: Sample, tolerance: float) -> Answer:
     """DAQP: a dual active-set method, on the program in the controls alone.
 
-    Rows with `hard_weight` are constraints; the others keep their excess as an unknown.
+    Rows with the hard weight are constraints; the others keep their excess as an unknown.
     """
     import daqp as library
 
-    data = sparse_program(program, stages, start)
-    controls, states = CONTROLS * stages, STATES * stages
+    data = sparse_program(sample)
+    controls, states = CONTROLS * sample.stages, STATES * sample.stages
     u, x = slice(0, controls), slice(controls, controls + states)
     # the states, x = at_rest + reach u
     free = np.linalg.solve(
@@ -240,7 +250,7 @@ def daqp(
     at_rest, reach = free[:, 0], free[:, 1:]
     inner = data.quadratic[x, x].toarray()
     weights = data.linear[controls + states :]
-    soft = np.flatnonzero(weights != hard_weight)
+    soft = np.flatnonzero(weights != sample.hard_weight)
     excesses = len(soft)
     hessian = np.zeros((controls + excesses, controls + excesses))
     hessian[u, u] = data.quadratic[u, u].toarray() + reach.T @ inner @ reach
@@ -257,33 +267,36 @@ def daqp(
     lower = np.concatenate(
         [-np.ones(controls), np.zeros(excesses), np.full(len(limits), -infinite)]
     )
-    x, _, flag, info = library.solve(
+    found, _, flag, info = library.solve(
         hessian, gradient, matrix, upper, lower, primal_tol=tolerance, iter_limit=100000
     )
-    return _answer(data, flag == 1, x, info["iterations"], info["setup_time"] + info["solve_time"])
+    return _answer(
+        data, flag == 1, found, info["iterations"], info["setup_time"] + info["solve_time"]
+    )
 
 
-def own(program: Program, stages: int, start: np.ndarray, tolerance: float) -> Answer:
+def own(sample: Sample, tolerance: float) -> Answer:
     """The stage-wise solver of this package, timed as in the loop: called from compiled code."""
-    planes = program.normals.shape[1]
-    work = workspace(stages, planes, len(program.components))
-    solution = solve(program, stages, start, work, tolerance, OWN_LIMIT)
-    again = (program, stages, start, work, tolerance, REPETITIONS)
+    program, stages = sample.program, sample.stages
+    work = workspace(stages, program.normals.shape[1], len(program.components))
+    solution = solve(program, stages, sample.start, work, tolerance, OWN_LIMIT)
+    again = (program, stages, sample.start, work, tolerance)
     _, seconds = timed(lambda: _solve_again(*again))
     solved, controls = solution.status == SOLVED, solution.controls.copy()
     return Answer(solved, controls, solution.iterations, seconds / REPETITIONS)
 
 
 @compiled
-def _solve_again(program, stages, start, work, tolerance, times):
-    for _ in range(times):
+def _solve_again(program, stages, start, work, tolerance):
+    for _ in range(REPETITIONS):
         solve(program, stages, start, work, tolerance, OWN_LIMIT)
 
 
-def cost(program: Program, stages: int, start: np.ndarray, controls: np.ndarray) -> float:
-    """Cost of some controls, clipped to their bounds, with the penalties of all rows."""
+def cost(sample: Sample, controls: np.ndarray) -> float:
+    """Cost of some controls (N, 3), clipped to their bounds, with the penalties of all rows."""
+    program, stages = sample.program, sample.stages
     u = np.clip(controls, -1.0, 1.0)
-    states = [np.asarray(start)]
+    states = [np.asarray(sample.start)]
     for control in u:
         moved = states[-1].copy()
         moved[3:] += control

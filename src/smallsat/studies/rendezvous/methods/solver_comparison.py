@@ -1,54 +1,31 @@
 """The same programs, sampled from closed loops, solved by all QP solvers."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import pandas as pd
 
-from smallsat.optimal_control.riccati_interior_point import Program
 from smallsat.studies.rendezvous.guidance.controller import TOLERANCE
 from smallsat.studies.rendezvous.guidance.law import PHASES, Law, settings
 from smallsat.studies.rendezvous.guidance.phase_programs import empty_program, write_program
 from smallsat.studies.rendezvous.methods import qp_solvers
 from smallsat.studies.rendezvous.methods.hpipm import hpipm
-from smallsat.studies.rendezvous.methods.qp_solvers import Answer
+from smallsat.studies.rendezvous.methods.qp_solvers import Answer, Sample
 from smallsat.studies.rendezvous.simulation.closed_loop import simulate
 
 
-@dataclass(frozen=True)
-class Sample:
-    """One program of a closed loop: which kind, the program, its stages, start and hard weight."""
-
-    kind: str
-    program: Program
-    stages: int
-    start: np.ndarray
-    hard_weight: float
-
-
-Solve = Callable[[Sample], Answer]
-
-
-def _sparse(solve: Callable[..., Answer], tolerance: float) -> Solve:
-    return lambda sample: solve(
-        qp_solvers.sparse_program(sample.program, sample.stages, sample.start), tolerance
-    )
-
-
-def _staged(solve: Callable[..., Answer], tolerance: float) -> Solve:
-    return lambda sample: solve(sample.program, sample.stages, sample.start, tolerance)
+def _sparse(solve: Callable[..., Answer], tolerance: float) -> Callable[[Sample], Answer]:
+    return lambda sample: solve(qp_solvers.sparse_program(sample), tolerance)
 
 
 # Each at a tolerance at which it still converges as a rule; OSQP's is its usual one.
-QP_SOLVERS: dict[str, Solve] = {
-    "stage-wise": _staged(qp_solvers.own, TOLERANCE),
-    "HPIPM": _staged(hpipm, 1e-8),
+QP_SOLVERS: dict[str, Callable[[Sample], Answer]] = {
+    "stage-wise": partial(qp_solvers.own, tolerance=TOLERANCE),
+    "HPIPM": partial(hpipm, tolerance=1e-8),
     "PIQP": _sparse(qp_solvers.piqp, 1e-9),
     "Clarabel": _sparse(qp_solvers.clarabel, 1e-8),
-    "DAQP": lambda sample: qp_solvers.daqp(
-        sample.program, sample.stages, sample.start, sample.hard_weight, 1e-9
-    ),
+    "DAQP": partial(qp_solvers.daqp, tolerance=1e-9),
     "OSQP": _sparse(qp_solvers.osqp, 1e-4),
 }
 NOT_FOR_LP = {"HPIPM", "DAQP"}
@@ -64,7 +41,7 @@ def samples(laws: dict[str, Law], starts: np.ndarray, count: int) -> list[Sample
     starts
         Relative states, (M, 6), m and m/s.
     count
-        Of programs of each kind, at most.
+        Largest number of programs of each kind.
     """
     found = []
     for name, law in laws.items():
@@ -118,11 +95,12 @@ def compare(programs: list[Sample]) -> tuple[pd.DataFrame, pd.DataFrame]:
             if not (name in NOT_FOR_LP and sample.program.control_norm[0] > 0.0)
         }
         costs = {
-            name: qp_solvers.cost(sample.program, sample.stages, sample.start, answer.controls)
+            name: qp_solvers.cost(sample, answer.controls)
             for name, answer in answers.items()
             if answer.solved
         }
-        saved = _cost_at_rest(sample) - min(costs.values(), default=np.nan)
+        at_rest = qp_solvers.cost(sample, np.zeros((sample.stages, 3)))
+        saved = at_rest - min(costs.values(), default=np.nan)
         for name, answer in answers.items():
             control_error = cost_error = np.nan
             others = [other for other in costs if other != name]
@@ -143,11 +121,6 @@ def compare(programs: list[Sample]) -> tuple[pd.DataFrame, pd.DataFrame]:
             )
             seconds.append(key | {"seconds": answer.seconds})
     return pd.DataFrame(rows), pd.DataFrame(seconds)
-
-
-def _cost_at_rest(sample: Sample) -> float:
-    controls = np.zeros((sample.stages, 3))
-    return qp_solvers.cost(sample.program, sample.stages, sample.start, controls)
 
 
 def summary(answers: pd.DataFrame) -> pd.DataFrame:

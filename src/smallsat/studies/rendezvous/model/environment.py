@@ -1,4 +1,4 @@
-"""The truth's surroundings from the configuration: gravity, air, bodies, and the target's orbit."""
+"""The environment of nonlinear motion from the configuration, and the target's orbit."""
 
 import numpy as np
 
@@ -30,7 +30,7 @@ def target_state(settings: Config, mean_motion: float) -> np.ndarray:
     settings
         The configuration's ``rendezvous.truth``.
     mean_motion
-        Of the target, rad/s.
+        Mean motion of the target, rad/s.
     """
     angles = np.radians(
         [settings["inclination_deg"], settings["raan_deg"], settings["latitude_angle_deg"]]
@@ -47,16 +47,16 @@ def box(settings: Config) -> np.ndarray:
 
 
 def environment(settings: Config, mean_motion: float, mass: float) -> Environment:
-    """Surroundings for `smallsat.studies.rendezvous.model.truth`.
+    """Gravity, air and bodies for `smallsat.studies.rendezvous.model.truth`.
 
     Parameters
     ----------
     settings
         The configuration's ``rendezvous.truth``.
     mean_motion
-        Of the target, rad/s: gives the height for the air's density.
+        Mean motion of the target, rad/s: gives the height for the air's density.
     mass
-        Of each body, kg.
+        Mass of each body, kg.
 
     The density and the scale height at the orbit's altitude come from the exponential model of
     `smallsat.dynamics.environment.torques`, times the configuration's factor; the thesis names no

@@ -19,12 +19,12 @@ class FilterModel(NamedTuple):
     Attributes
     ----------
     position_error, velocity_error
-        Of a measurement, m and m/s, along each axis.
+        Error of a measurement, m and m/s, along each axis.
     amplitude_error
-        Of the thrust, as a fraction of an impulse.
+        Error of the thrust, as a fraction of an impulse.
     gradient_error
-        Of the linear equations' acceleration, as a fraction of n^2 times the distance: what the
-        oblateness, the curvature and the frame leave.
+        Error of the linear equations' acceleration, as a fraction of n^2 times the distance: what
+        the oblateness, the curvature and the frame leave.
     other_acceleration
         What is left at no distance, such as differential drag, m/s^2.
     mean_motion
@@ -59,9 +59,9 @@ def predict(estimate, covariance, delta_v, transition, duration, model):
     delta_v : shape (3,)
         Commanded impulse at the start of the step, m/s.
     transition : shape (6, 6)
-        Of the prediction model over the step.
+        Transition matrix of the prediction model over the step.
     duration : float
-        Of the step, s.
+        Length of the step, s.
     model : FilterModel
 
     The model's error is an acceleration that is constant over a step and independent between steps.
@@ -95,7 +95,7 @@ def predict(estimate, covariance, delta_v, transition, duration, model):
 
 @compiled
 def update(estimate, covariance, measurement, model):
-    """Take in a measurement (6,), in place."""
+    """Correct estimate (6,) and covariance (6, 6) by a measurement (6,), in place."""
     gain = np.empty(6)
     for axis in range(6):
         noise = model.position_error**2 if axis < 3 else model.velocity_error**2

@@ -1,8 +1,6 @@
 """The guidance law's prediction model, discretised for impulses, and its terminal weight.
 
-Frame: the target's local-vertical local-horizontal frame, x radially outwards, y along the
-velocity, z along the orbit normal. States are relative position, m, and velocity in that rotating
-frame, m/s.
+States are relative position, m, and velocity, m/s, in the target's Hill frame, which rotates.
 """
 
 import numpy as np
@@ -10,7 +8,7 @@ import scipy.linalg
 
 
 def transition(matrix: np.ndarray, duration: float) -> np.ndarray:
-    """State transition over a duration, s (3.1); impulses are added to the velocity before it."""
+    """State transition (6, 6) over a duration, s (3.1); impulses change the velocity before it."""
     return scipy.linalg.expm(matrix * duration)
 
 

@@ -38,7 +38,7 @@ def schweighart_sedwick(mean_motion: float, inclination: float, radius: float) -
         n, rad/s: of the circular orbit with this radius in the central field. The target's frame
         turns at n c, so that n is its mean rate over c.
     inclination, radius
-        Of the target's orbit, rad and m.
+        Inclination and radius of the target's orbit, rad and m.
     """
     n = mean_motion
     squared = 1.0 + oblateness(inclination, radius)

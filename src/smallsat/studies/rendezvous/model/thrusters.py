@@ -16,7 +16,7 @@ def pulse_on_times(delta_v, mass, force, minimum_on_time, on_times):
     delta_v : shape (3,)
         Commanded, m/s, along the axes of the thrusters.
     mass, force, minimum_on_time : float
-        Of the chaser, kg; of a thruster, N; s.
+        Mass of the chaser, kg; force of a thruster, N; least time of a pulse, s.
     on_times : shape (3,)
         Filled.
     """

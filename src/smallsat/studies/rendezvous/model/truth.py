@@ -2,8 +2,8 @@
 
 Gravity in spherical harmonics to any degree up to 8 (section 5.2.1), drag on flat plates in an
 atmosphere that turns with the Earth (Eqs. 5.4 and 5.5), and finite pulses of the chaser's thrusters
-(Eq. 2.4). Each body keeps its axes along its own local-vertical local-horizontal (LVLH) frame: x
-radially outwards, y along the motion, z along the orbit's normal (section 2.1.1).
+(Eq. 2.4). Each body keeps its axes along its own Hill frame: x radially outwards, y along the
+motion, z along the orbit's normal (section 2.1.1).
 """
 
 from math import ceil, cos, exp, sin, sqrt
@@ -29,8 +29,8 @@ class Environment(NamedTuple):
     earth_rate, earth_angle
         Rate of the Earth, and its angle at time zero.
     density, density_radius, scale_height
-        Of the air: the density at a distance from the Earth's centre falls off exponentially. A
-        density of zero leaves the drag out.
+        The air's density at a distance from the Earth's centre, from where it falls off
+        exponentially. A density of zero leaves the drag out.
     panels
         Shape (2, n, 4): area and outward normal in body axes, of the target and the chaser.
     drag
@@ -153,7 +153,7 @@ def advance(pair, time, duration, thrust_acceleration, on_times, environment):
     time, duration : float
         Seconds since time zero, and how long.
     thrust_acceleration : shape (3,)
-        Of the chaser's thrusters while they burn, m/s^2, along the axes that the target's LVLH
+        That of the chaser's thrusters while they burn, m/s^2, along the axes that the target's Hill
         frame has at the start; it keeps that inertial direction.
     on_times : shape (3,)
         How long the thrusters of each axis burn from the start, s; zero for none. Steps end where
@@ -162,25 +162,17 @@ def advance(pair, time, duration, thrust_acceleration, on_times, environment):
     """
     radial, along, normal = hill_frame(pair[0, :3], pair[0, 3:])
     rates = np.empty((NODES.shape[0], 2, 6))
-    trial = np.empty((2, 6))
+    trial, thrust = np.empty((2, 6)), np.empty(3)
     start = 0.0
     while start < duration:
         end = duration
-        a = b = c = 0.0
+        burning = np.zeros(3)
         for axis in range(3):
             if on_times[axis] > start:
                 end = min(end, on_times[axis])
-                if axis == 0:
-                    a = thrust_acceleration[0]
-                elif axis == 1:
-                    b = thrust_acceleration[1]
-                else:
-                    c = thrust_acceleration[2]
-        thrust = (
-            a * radial[0] + b * along[0] + c * normal[0],
-            a * radial[1] + b * along[1] + c * normal[1],
-            a * radial[2] + b * along[2] + c * normal[2],
-        )
+                burning[axis] = thrust_acceleration[axis]
+        for k in range(3):
+            thrust[k] = burning[0] * radial[k] + burning[1] * along[k] + burning[2] * normal[k]
         # A length that is a multiple of the step but for rounding needs no further step.
         steps = max(1, ceil((end - start) / environment.step - 1e-9))
         length = (end - start) / steps
@@ -191,7 +183,7 @@ def advance(pair, time, duration, thrust_acceleration, on_times, environment):
 
 @compiled
 def relative_state(pair):
-    """Relative position, m, and velocity, m/s, in the target's LVLH frame, shape (6,).
+    """Relative position, m, and velocity, m/s, in the target's Hill frame, shape (6,).
 
     The velocity is that seen in the turning frame. Its rate is the target's osculating one, |r x v|
     / r^2 about the normal: the turn of the orbit's plane by other forces than a central one is left
@@ -224,7 +216,7 @@ def pair_from_relative(target, relative):
 
 @compiled
 def _turning_frame(pair):
-    """Axes of the target's LVLH frame and its osculating rate, rad/s."""
+    """Axes of the target's Hill frame and its osculating rate, rad/s."""
     r, v = pair[0, :3], pair[0, 3:]
     radial, along, normal = hill_frame(r, v)
     h = cross(r, v)

@@ -1,11 +1,11 @@
 """The cases of chapters 4 and 5 and appendix A, and of what goes beyond them, by group.
 
-A case is the baseline guidance law with some attributes changed, flown over some of the phases. A
-case that does not begin with the first phase begins where the baseline ended the phase before.
+A case is the baseline guidance law with some attributes changed, over some of the phases. A case
+that does not begin with the first phase begins where the baseline ended the phase before.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,11 +15,11 @@ from smallsat.dynamics.units import MINUTE
 from smallsat.studies.rendezvous.guidance.law import Law
 from smallsat.studies.rendezvous.model.environment import orbit_radius
 from smallsat.studies.rendezvous.model.prediction_j2 import schweighart_sedwick
+from smallsat.studies.rendezvous.parameters import STUDY_PHASES as PHASES
 from smallsat.studies.rendezvous.parameters import law
 from smallsat.studies.rendezvous.simulation.disturbances import disturbed_motion
 from smallsat.studies.rendezvous.simulation.motion import NonlinearMotion
 
-PHASES = ("rendezvous", "approach", "docking")
 # Names that others look for.
 BASELINE, NO_SET_POINT, LP = "baseline", "no set point", "LP"
 AS_DOCUMENTED, UNDISTURBED, FILTERED = "as documented", "undisturbed", "Kalman filter"
@@ -33,15 +33,15 @@ class Case:
     Attributes
     ----------
     name
-        Unique within its group.
+        Its name, unique within its group.
     law
-        The guidance law flown.
+        The guidance law.
     phases
-        First and last phase flown, 0 to 2.
+        First and last phase, 0 to 2.
     motion
         What the law guides; ``None``: the linear motion that it predicts.
     runs
-        From each initial state.
+        How many manoeuvres begin at each initial state.
     """
 
     name: str
@@ -76,11 +76,6 @@ def prediction_case(model: str, inclination: float) -> str:
     return f"{model}, {inclination:g} deg"
 
 
-def cases(section: Config, group: str) -> list[Case]:
-    """The cases of a group, in the order of its results."""
-    return GROUPS[group](section)
-
-
 def base(section: Config, case: str = "v-bar") -> Law:
     """The law of a case of chapter 3 with the time limit of the studies."""
     limit = MINUTE * section["studies"]["time_limit_min"]
@@ -92,14 +87,14 @@ def in_phase(values: tuple[Any, ...], phase: int, value: Any) -> tuple[Any, ...]
     return (*values[:phase], value, *values[phase + 1 :])
 
 
-def _sampled(given: Law, phase: int, sample_time: float) -> Law:
-    return replace(given, sample_times=in_phase(given.sample_times, phase, float(sample_time)))
+def _sampled(law: Law, phase: int, sample_time: float) -> Law:
+    return law.with_(sample_times=in_phase(law.sample_times, phase, float(sample_time)))
 
 
-def _weighted(given: Law, phase: int, factor: float) -> Law:
-    weights = np.array(given.control_weights, dtype=float)
+def _weighted(law: Law, phase: int, factor: float) -> Law:
+    weights = np.array(law.control_weights, dtype=float)
     weights[phase] *= factor
-    return replace(given, control_weights=weights)
+    return law.with_(control_weights=weights)
 
 
 def _domain(section: Config) -> list[Case]:
@@ -115,13 +110,12 @@ def _sweep(phase: int) -> Callable[[Config], list[Case]]:
     """Sections 4.2 to 4.4: horizons and sample times of one phase, that phase alone."""
 
     def make(section: Config) -> list[Case]:
-        given, settings = base(section), section["studies"][PHASES[phase]]
+        law, settings = base(section), section["studies"][PHASES[phase]]
         return [
             Case(
                 sweep_case(horizon, sample_time),
-                replace(
-                    _sampled(given, phase, sample_time),
-                    horizons=in_phase(given.horizons, phase, horizon),
+                _sampled(law, phase, sample_time).with_(
+                    horizons=in_phase(law.horizons, phase, horizon)
                 ),
                 (phase, phase),
             )
@@ -134,17 +128,17 @@ def _sweep(phase: int) -> Callable[[Config], list[Case]]:
 
 def _weights(section: Config) -> list[Case]:
     """Section 4.5: other weights of the control, and whether sample times then compare alike."""
-    given, factors = base(section), section["studies"]["weights"]["factors"]
+    law, factors = base(section), section["studies"]["weights"]["factors"]
     times = section["studies"]["rendezvous"]["sample_times_s"]
     whole = [
-        Case(weight_case(factor, name), _weighted(given, phase, factor))
+        Case(weight_case(factor, name), _weighted(law, phase, factor))
         for phase, name in enumerate(PHASES)
         for factor in factors
     ]
     sampled = [
         Case(
             weighted_sweep_case(factor, sample_time),
-            _sampled(_weighted(given, 0, factor), 0, sample_time),
+            _sampled(_weighted(law, 0, factor), 0, sample_time),
             (0, 0),
         )
         for factor in (factors[0], factors[-1])
@@ -155,9 +149,9 @@ def _weights(section: Config) -> list[Case]:
 
 def _delay(section: Config) -> list[Case]:
     """Section 5.5: the control acts late, known to the prediction or not."""
-    given = base(section)
+    law = base(section)
     return [
-        Case(delay_case(delay, known), given.with_(delay=float(delay), delay_known=known))
+        Case(delay_case(delay, known), law.with_(delay=float(delay), delay_known=known))
         for delay in section["studies"]["delay"]["delays_s"]
         for known in (False, True)
     ]
@@ -165,64 +159,49 @@ def _delay(section: Config) -> list[Case]:
 
 def _prediction(section: Config) -> list[Case]:
     """Section 3.7: J2 in the prediction, over inclinations, in the field of degree 8."""
-    found = []
+    law, found = base(section), list[Case]()
+    n, radius = law.mean_motion, orbit_radius(law.mean_motion)
     for inclination in section["studies"]["prediction"]["inclinations_deg"]:
         tilted = section | {"truth": section["truth"] | {"inclination_deg": inclination}}
-        given = base(tilted)
-        motion = disturbed_motion(tilted, given, thrust_error=False, measurement_error=False)
-        matrix = schweighart_sedwick(
-            given.mean_motion, float(np.radians(inclination)), orbit_radius(given.mean_motion)
-        )
-        for model, flown in (
-            (CLOHESSY_WILTSHIRE, given),
-            (SCHWEIGHART_SEDWICK, given.with_(prediction=matrix)),
-        ):
-            found.append(Case(prediction_case(model, inclination), flown, motion=motion))
+        motion = disturbed_motion(tilted, law, thrust_error=False, measurement_error=False)
+        matrix = schweighart_sedwick(n, float(np.radians(inclination)), radius)
+        for model, prediction in ((CLOHESSY_WILTSHIRE, None), (SCHWEIGHART_SEDWICK, matrix)):
+            name = prediction_case(model, inclination)
+            found.append(Case(name, law.with_(prediction=prediction), motion=motion))
     return found
 
 
 def _robustness(section: Config) -> list[Case]:
     """Chapter 5, and with its disturbances one by one or with a filter."""
-    given, settings = base(section), section["studies"]["robustness"]
-    few = settings["variant_runs"]
+    law, table = base(section), section["studies"]["robustness"]
+    few = table["variant_runs"]
+    variants: dict[str, tuple[int, dict[str, bool]]] = {
+        UNDISTURBED: (1, {"thrust_error": False, "measurement_error": False}),
+        AS_DOCUMENTED: (table["runs"], {}),
+        "thrust error alone": (few, {"measurement_error": False}),
+        "measurement error alone": (few, {"thrust_error": False}),
+        FILTERED: (few, {"filtered": True}),
+        "burns in place of impulses": (few, {"burns": True}),
+    }
     return [
-        Case(UNDISTURBED, given, motion=disturbed_motion(section, given, False, False)),
-        Case(AS_DOCUMENTED, given, motion=disturbed_motion(section, given), runs=settings["runs"]),
-        Case(
-            "thrust error alone",
-            given,
-            motion=disturbed_motion(section, given, measurement_error=False),
-            runs=few,
-        ),
-        Case(
-            "measurement error alone",
-            given,
-            motion=disturbed_motion(section, given, thrust_error=False),
-            runs=few,
-        ),
-        Case(FILTERED, given, motion=disturbed_motion(section, given, filtered=True), runs=few),
-        Case(
-            "burns in place of impulses",
-            given,
-            motion=disturbed_motion(section, given, burns=True),
-            runs=few,
-        ),
+        Case(name, law, motion=disturbed_motion(section, law, **changes), runs=runs)
+        for name, (runs, changes) in variants.items()
     ]
 
 
 def _passages(section: Config) -> list[Case]:
     """What the docking distance and the time limit decide: the closest and the longest of them."""
     settings = section["studies"]["passages"]
-    given = base(section)
-    farthest = given.with_(
-        switch_distances=in_phase(given.switch_distances, 2, min(settings["distances_m"])),
+    law = base(section)
+    farthest = law.with_(
+        switch_distances=in_phase(law.switch_distances, 2, min(settings["distances_m"])),
         time_limit=MINUTE * max(settings["limits_min"]),
     )
     motion = disturbed_motion(section, farthest)
     return [Case("passages", farthest, motion=motion, runs=settings["runs"])]
 
 
-# Each group is one table of results, flown in shards.
+# Each group is one table of results, made in shards.
 GROUPS: dict[str, Callable[[Config], list[Case]]] = {
     "domain": _domain,
     "rendezvous-sweep": _sweep(0),
@@ -234,3 +213,8 @@ GROUPS: dict[str, Callable[[Config], list[Case]]] = {
     "robustness": _robustness,
     "passages": _passages,
 }
+
+
+def cases(section: Config, group: str) -> list[Case]:
+    """The cases of a group, in the order of its results."""
+    return GROUPS[group](section)

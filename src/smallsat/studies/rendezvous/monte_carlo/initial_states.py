@@ -17,7 +17,7 @@ IN_PLANE, ISOTROPIC = "in-plane", "isotropic"
 
 
 class Distribution(NamedTuple):
-    """Of the initial states.
+    """How the initial states are distributed.
 
     Attributes
     ----------

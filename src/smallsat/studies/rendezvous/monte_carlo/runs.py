@@ -48,9 +48,9 @@ def simulate_cases(
     Parameters
     ----------
     section
-        Of the configuration.
+        The configuration's ``rendezvous``.
     cases
-        Of a group.
+        The cases of a group.
     starts
         One table a case: ``sample``, ``run``, and the relative state in the Hill frame, m and m/s.
 

@@ -10,7 +10,7 @@ from smallsat.errors import InputError
 from smallsat.studies.rendezvous.model.columns import STATE
 from smallsat.studies.rendezvous.monte_carlo.cases import PHASES
 
-# What each phase flown has; a phase not flown has no steps, no time, and no end.
+# What each phase has; a phase that is left out has no steps, no time, and no end.
 COUNTS = ("steps", "softened", "outside", "failed")
 SUMS = ("time_s", "delta_v_m_s", "norm_delta_v_m_s", "axes_delta_v_m_s")
 KEY = ("case", "sample", "run")
@@ -26,8 +26,8 @@ def end_columns(phase: str) -> list[str]:
     return [column(phase, f"end_{name}") for name in STATE]
 
 
-# ``completed``: the last phase flown met its end within the time limit. ``end_phase`` is the number
-# of the phase that the manoeuvre ended in, 1 to 3. Velocity changes are added up three ways:
+# ``completed``: the last phase asked for met its end within the time limit. ``end_phase`` is the
+# number of the phase that the manoeuvre ended in, 1 to 3. Velocity changes are added up three ways:
 # ``delta_v`` in the configured reading, ``norm_delta_v`` by Euclidean norms, ``axes_delta_v`` by
 # absolute components. Programs are counted in which a hard row had to give way (``softened``),
 # whose first state violated one already (``outside``), and that the solver gave up (``failed``); as
@@ -67,7 +67,7 @@ PASSAGES_KEY = ("sample", "run", "end_distance_m", "time_limit_min")
 
 
 def empty_rows(count: int) -> dict[str, np.ndarray]:
-    """Columns for ``count`` manoeuvres in which nothing has been flown yet."""
+    """Columns for ``count`` manoeuvres of which nothing is known yet."""
     columns: dict[str, np.ndarray] = {}
     for entry in SCHEMA:
         if pa.types.is_large_string(entry.type):

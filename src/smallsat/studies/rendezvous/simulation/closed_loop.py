@@ -49,9 +49,9 @@ class Steps(NamedTuple):
     impulse
         Commanded velocity change, (K, 3), m/s.
     status, iterations
-        Of the program.
+        How the solver ended, and the steps that it took.
     softened
-        Hard rows that gave way.
+        Number of hard rows that gave way.
     outside
         Whether the start of the horizon violated a constraint.
     """
@@ -101,21 +101,21 @@ class Manoeuvres(NamedTuple):
     docked
         Whether the last phase asked for ended within the time limit, (M,).
     steps
-        (M, 3).
+        Number of steps, (M, 3).
     delta_v, delta_v_axes, delta_v_planes
         Sums of the velocity changes' 2-norms, of their 1-norms, and of their 2-norm in the orbit's
         plane plus what is normal to it, (M, 3), m/s.
     ends
         True relative state at the end of each phase, (M, 3, 6), m and m/s.
     end_times
-        s, (M, 3).
+        When each phase ended, or the manoeuvre in it, s, (M, 3).
     softened, outside, failed
         Programs in which a hard row gave way, whose start violated a constraint, and that were not
         solved (the last plan's next control was taken instead), (M, 3).
     iterations
-        Of the solver, (M, 3).
+        Steps of the solver, (M, 3).
     records, passages
-        Of all steps, if asked for; by other docking distances and time limits, if asked for.
+        What was asked for of all steps, and of other docking distances and time limits.
     """
 
     docked: np.ndarray
@@ -133,7 +133,7 @@ class Manoeuvres(NamedTuple):
     passages: Passages
 
     def record(self, m: int) -> Steps:
-        """All steps of one manoeuvre."""
+        """The steps of manoeuvre number `m`."""
         return Steps(*(array[m, : self.steps[m].sum()] for array in self.records))
 
 
@@ -159,13 +159,17 @@ def simulate(
     phases
         First and last phase.
     motion
-        Of all of them; ``None``: linear.
+        What all of them are simulated with; ``None``: linear motion.
     generators
         Random stream of each manoeuvre; nonlinear motion needs them.
     with_steps
         Whether to keep records of all steps.
     distances, limits, reading
-        Of `Passages`.
+        Docking distances, m, time limits, s, and sum of delta-v to be noted as `Passages`.
+
+    Returns
+    -------
+    Manoeuvres
     """
     settings_of = settings(laws)
     starts = np.ascontiguousarray(np.atleast_2d(starts), dtype=float)
@@ -277,7 +281,7 @@ def _simulate(law, start, phases, motion, generator, memory, m, found):
 
 @compiled
 def _record(records, m, step, time, phase, state, command, control):
-    """Keep what one step begins with."""
+    """Fill the entries of one step in `Steps`."""
     records.time[m, step] = time
     records.phase[m, step] = phase
     records.state[m, step] = state

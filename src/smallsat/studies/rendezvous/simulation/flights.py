@@ -28,11 +28,11 @@ def simulate_cases(section: Config) -> dict[str, pd.DataFrame]:
         list(laws.values()), np.tile(start_state(section), (len(laws), 1)), with_steps=True
     )
     flights, paths, phases = [], [], []
-    for number, (case, given) in enumerate(laws.items()):
+    for number, case in enumerate(laws):
         steps, end = found.record(number), found.ends[number]
         # A manoeuvre that does not dock ends in the phase that it is in.
-        flights.append(_flight(case, steps, end[steps.phase[-1]], given))
-        paths.append(_path(case, steps, given))
+        flights.append(_flight(case, steps, end[steps.phase[-1]], laws[case]))
+        paths.append(_path(case, steps, laws[case]))
         for phase, name in enumerate(PHASES):
             changes = steps.impulse[steps.phase == phase]
             phases.append(
@@ -42,7 +42,7 @@ def simulate_cases(section: Config) -> dict[str, pd.DataFrame]:
                     "ended": bool(found.docked[number])
                     or len(steps.impulse[steps.phase > phase]) > 0,
                     "steps": len(changes),
-                    "time_s": len(changes) * given.sample_times[phase],
+                    "time_s": len(changes) * laws[case].sample_times[phase],
                     **{reading: summed(changes, reading) for reading in READINGS},
                     "softened": int(found.softened[number, phase]),
                     "outside_at_start": int(found.outside[number, phase]),
@@ -56,7 +56,7 @@ def simulate_cases(section: Config) -> dict[str, pd.DataFrame]:
     }
 
 
-def _flight(case: str, steps: Steps, end: np.ndarray, given: Law) -> pd.DataFrame:
+def _flight(case: str, steps: Steps, end: np.ndarray, law: Law) -> pd.DataFrame:
     table = pd.DataFrame(steps.state, columns=STATE)
     table[CHANGE] = steps.impulse
     table.insert(0, "flight", case)
@@ -64,19 +64,19 @@ def _flight(case: str, steps: Steps, end: np.ndarray, given: Law) -> pd.DataFram
     table.insert(2, "time_s", steps.time)
     table["status"] = steps.status
     table["softened"] = steps.softened
-    last = {"flight": case, "phase": "end", "time_s": _end_time(steps, given)}
+    last = {
+        "flight": case,
+        "phase": "end",
+        "time_s": float(steps.time[-1] + law.sample_times[steps.phase[-1]]),
+    }
     last |= dict(zip(STATE, end, strict=True)) | dict.fromkeys(CHANGE, 0.0)
     last |= {"status": 0, "softened": 0}
     return pd.concat([table, pd.DataFrame([last])], ignore_index=True)
 
 
-def _end_time(steps: Steps, given: Law) -> float:
-    return float(steps.time[-1] + given.sample_times[int(steps.phase[-1])])
-
-
-def _path(case: str, steps: Steps, given: Law) -> pd.DataFrame:
+def _path(case: str, steps: Steps, law: Law) -> pd.DataFrame:
     """States at `PIECES` places of each step, the first right after the control."""
-    matrix = rate_matrix(given.mean_motion)
+    matrix = rate_matrix(law.mean_motion)
     parts = []
     for phase, name in enumerate(PHASES):
         chosen = steps.phase == phase
@@ -85,7 +85,7 @@ def _path(case: str, steps: Steps, given: Law) -> pd.DataFrame:
         after = steps.state[chosen].copy()
         after[:, 3:] += steps.impulse[chosen]
         for piece in range(PIECES + 1):
-            duration = given.sample_times[phase] * piece / PIECES
+            duration = law.sample_times[phase] * piece / PIECES
             part = pd.DataFrame(after @ transition(matrix, duration).T, columns=STATE)
             part.insert(0, "flight", case)
             part.insert(1, "phase", name)

@@ -26,7 +26,7 @@ from smallsat.studies.rendezvous.model.truth import (
 # How a velocity change comes about: as commanded and at once; as the thrusters' pulses give it, but
 # at once; or as they give it, in the time that they take from the step's start.
 COMMANDED, IMPULSES, BURNS = 0, 1, 2
-# Of the thrust's amplitude error w (5.2).
+# The thrust's amplitude error w stays in these bounds (5.2).
 ERROR_RANGE = (-1.0, 1.0)
 
 
@@ -36,14 +36,14 @@ class NonlinearMotion(NamedTuple):
     Attributes
     ----------
     environment, target
-        Of `smallsat.studies.rendezvous.model.truth`: the Earth and the bodies; the target's
-        inertial state (6,).
+        The Earth and the bodies, see `smallsat.studies.rendezvous.model.truth`; the target's
+        inertial state (6,) at time zero.
     mass, force, minimum_on_time
-        Of the chaser; of a thruster; of a pulse.
+        Mass of the chaser, force of a thruster, least time of a pulse.
     actuation
         `COMMANDED`, `IMPULSES` or `BURNS`.
     error_start, error_transitions, error_factors
-        Of the thrust's amplitude error: `actuation_noise.stationary_factor`, and the two arrays of
+        The thrust's amplitude error: `actuation_noise.stationary_factor`, and the two arrays of
         `actuation_noise.Interval` for the sample time of each phase, (3, 2, 2). Zeros: no error.
     measured
         Whether the law knows measurements only; else it knows the state.
@@ -52,7 +52,8 @@ class NonlinearMotion(NamedTuple):
     filtered
         Whether a Kalman filter stands between measurement and guidance.
     filter_model, filter_transitions
-        Of `navigation_filter`; of each phase's prediction over its sample time, (3, 6, 6).
+        What the filter takes its errors to be; each phase's prediction over its sample time,
+        (3, 6, 6).
     """
 
     environment: Environment
@@ -108,7 +109,7 @@ def coast(motion, pair, transition, time, duration, burn, on_times):
     Parameters
     ----------
     transition
-        Of the linear equations over the duration, (6, 6), for linear motion.
+        Transition matrix of the linear equations over the duration, (6, 6), for linear motion.
     time, burn, on_times
         For nonlinear motion: s since time zero, and thrusters that burn, see `truth.advance`.
     """

@@ -8,14 +8,14 @@ import pandas as pd
 
 from smallsat.config import Config
 from smallsat.statistics.random_streams import stream
-from smallsat.studies.rendezvous.evidence.case_tables import CASE_TABLES
 from smallsat.studies.rendezvous.guidance.law import PHASES
-from smallsat.studies.rendezvous.parameters import law, start_state
+from smallsat.studies.rendezvous.parameters import CASES, law, start_state
 from smallsat.studies.rendezvous.simulation.closed_loop import Steps, simulate
 from smallsat.studies.rendezvous.simulation.delta_v import summed
 from smallsat.studies.rendezvous.simulation.disturbances import nonlinear_motion
 from smallsat.studies.rendezvous.simulation.motion import BURNS, COMMANDED, NonlinearMotion
 
+THREE = CASES[:3]  # along V-bar, along R-bar, rotating target
 MODELS = {"impulses": COMMANDED, "burns": BURNS}
 
 
@@ -30,10 +30,10 @@ def simulate_nonlinear(section: Config) -> pd.DataFrame:
             [law(section, case)], start, motion=motion, generators=numbers, with_steps=True
         ).record(0)
 
-    linear = {case: steps(case, None) for case in CASE_TABLES}
+    linear = {case: steps(case, None) for case in THREE}
     rows = []
     for model, actuation in MODELS.items():
-        for case in CASE_TABLES:
+        for case in THREE:
             nonlinear = steps(case, nonlinear_motion(section, law(section, case), actuation))
             for phase, name in enumerate(PHASES):
                 before, after = (

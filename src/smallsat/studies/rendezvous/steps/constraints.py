@@ -2,12 +2,12 @@
 
 from smallsat.step import Step, Tables
 from smallsat.studies.rendezvous.methods import constraint_check
-from smallsat.studies.rendezvous.parameters import law, start_state
+from smallsat.studies.rendezvous.parameters import CASES, law, start_state
 
 
 def run(step: Step) -> Tables:
     """Look at the constraints at samples and between them."""
-    laws = {case: law(step.section, case) for case in ("v-bar", "r-bar", "rotating")}
+    laws = {case: law(step.section, case) for case in CASES[:3]}
     table = constraint_check.table(step.section, laws, start_state(step.section))
     for column in ("start", "sample", "between"):
         table[column] = table[column].round(6) + 0.0
