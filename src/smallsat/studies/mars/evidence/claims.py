@@ -195,7 +195,7 @@ def rates_oscillate_about_zero(grounds: Grounds) -> Judgement:
     )
     return judged(
         np.all(last > first),
-        f"{listed}; means in the last quarter {_text(mean, 3)} rad/s: a component far from zero "
+        f"{listed}; means in the last quarter {vector(mean, 3)} rad/s: a component far from zero "
         f"spins up and does not oscillate about it. The listing's panel of omega_2 shows omega_1, "
         f"which hides this",
     )
@@ -263,8 +263,8 @@ def gains_meet_requirements(grounds: Grounds) -> Judgement:
     return judged(
         np.isclose(slowest.max(), required["largest_decay_time_s"], rtol=1e-4)
         and np.isclose(most_damped.max(), required["largest_damping_ratio"], rtol=1e-4),
-        f"eigenvalues of the linearised loop: decay times {_text(slowest, 1)} s, damping ratios "
-        f"{_text(most_damped, 3)} about axes 1, 2, 3; required at most "
+        f"eigenvalues of the linearised loop: decay times {vector(slowest, 1)} s, damping ratios "
+        f"{vector(most_damped, 3)} about axes 1, 2, 3; required at most "
         f"{required['largest_decay_time_s']:g} s and {required['largest_damping_ratio']:g}",
     )
 
@@ -280,7 +280,7 @@ def performance_formulas(grounds: Grounds) -> Judgement:
     apart = max(np.max(np.abs(slowest / by_35 - 1.0)), np.max(np.abs(damping / by_36 - 1.0)))
     return judged(
         apart < 1e-4,
-        f"decay times {_text(by_35, 1)} s and damping ratios {_text(by_36, 3)} by the formulas "
+        f"decay times {vector(by_35, 1)} s and damping ratios {vector(by_36, 3)} by the formulas "
         f"differ from the eigenvalues' by at most {apart:.1e}",
     )
 
@@ -301,7 +301,7 @@ def sun_pointing_converges(grounds: Grounds) -> Judgement:
     """In Sun pointing the error must decay as required; the attitude reached is told."""
     ours, _ = _both(grounds, "sun")
     target = np.array(dcm_to_mrp(SUN_FRAME))
-    return _converges(grounds.config, ours, f"; the frame's MRPs are {_text(target, 4)}")
+    return _converges(grounds.config, ours, f"; the frame's MRPs are {vector(target, 4)}")
 
 
 def nadir_pointing_converges(grounds: Grounds) -> Judgement:
@@ -342,9 +342,8 @@ def modes_switch_automatically(grounds: Grounds) -> Judgement:
     given = parameters(section)
     ours, _ = _both(grounds, "mission")
     times, mode = ours["time_s"].to_numpy(), ours["mode"].to_numpy()
-    lmo = np.array([orbit_frame(given.lmo, t)[0] for t in times])
-    gmo = np.array([orbit_frame(given.gmo, t)[0] for t in times])
-    separation = np.arccos(np.clip(np.sum(lmo * gmo, axis=1), -1.0, 1.0))
+    lmo, gmo = directions(given, times)
+    separation = angle_between(lmo, gmo)
     expected = np.where(lmo[:, 1] > 0.0, 0, np.where(separation <= given.visibility, 2, 1))
     wrong = int(np.sum(expected != mode))
     switches = times[1:][np.diff(mode) != 0]
@@ -355,6 +354,19 @@ def modes_switch_automatically(grounds: Grounds) -> Judgement:
         f"switches at {', '.join(f'{t:g}' for t in switches)} s; at {wrong} of {len(times)} steps "
         f"the mode differs from Table 7",
     )
+
+
+def directions(given: Parameters, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Inertial directions of both spacecraft from the centre of Mars at times, s, (n, 3) each."""
+    lmo, gmo = (
+        np.array([orbit_frame(orbit, t)[0] for t in times]) for orbit in (given.lmo, given.gmo)
+    )
+    return lmo, gmo
+
+
+def angle_between(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Angles between unit vectors, rad, row by row."""
+    return np.arccos(np.clip(np.sum(a * b, axis=1), -1.0, 1.0))
 
 
 def _both(grounds: Grounds, name: str) -> tuple[pd.DataFrame, pd.DataFrame]:
@@ -441,5 +453,6 @@ def _converges(config: Config, rows: pd.DataFrame, note: str = "") -> Judgement:
     )
 
 
-def _text(values: np.ndarray, decimals: int) -> str:
+def vector(values: np.ndarray, decimals: int = 3) -> str:
+    """A vector for a reader."""
     return f"({', '.join(f'{value:.{decimals}f}' for value in values)})"

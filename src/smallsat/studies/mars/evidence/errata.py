@@ -7,12 +7,18 @@ from scipy.spatial.transform import Rotation
 
 from smallsat.dynamics.attitude.mrp import mrp_to_dcm
 from smallsat.dynamics.attitude.rigid_body import angular_momentum, kinetic_energy
-from smallsat.dynamics.orbits.circular_orbits import orbit_frame, position
+from smallsat.dynamics.orbits.circular_orbits import position
 from smallsat.dynamics.units import KM
 from smallsat.evidence.errata import Proof
 from smallsat.evidence.grounds import Grounds
 from smallsat.evidence.printed import Printed
-from smallsat.studies.mars.evidence.claims import MARS_DAY
+from smallsat.studies.mars.evidence.claims import (
+    MARS_DAY,
+    SIGMA,
+    angle_between,
+    directions,
+    vector,
+)
 from smallsat.studies.mars.evidence.observations import row_at
 from smallsat.studies.mars.methods.simulation import (
     AUTOMATIC,
@@ -51,8 +57,7 @@ def table_8_misprint(grounds: Grounds) -> Proof:
         for threshold in thresholds
     ]
     again = grounds.rows("independent.parquet", run="mission")
-    sigma_columns = ["sigma_1", "sigma_2", "sigma_3"]
-    found.append(again.loc[np.isclose(again["time_s"], time), sigma_columns].to_numpy()[0])
+    found.append(again.loc[np.isclose(again["time_s"], time), SIGMA].to_numpy()[0])
     # Whatever set each run ended in, the printed value might stand for the other one.
     sigma = np.array(found)
     shadows = -sigma / np.sum(sigma**2, axis=1, keepdims=True)
@@ -126,8 +131,8 @@ def attitude_matrix_factor(grounds: Grounds) -> Proof:
     before, after = _orthogonality_defect(printed), _orthogonality_defect(correct)
     return Proof(
         before > 1e-3 and after < ORTHOGONAL,
-        f"H = {_text(printed.T @ momentum)} kg m^2/s; [BN] is no rotation",
-        f"H = {_text(correct.T @ momentum)} kg m^2/s",
+        f"H = {vector(printed.T @ momentum)} kg m^2/s; [BN] is no rotation",
+        f"H = {vector(correct.T @ momentum)} kg m^2/s",
         f"[BN] [BN]' differs from 1 by {before:.2f} as printed and by {after:.0e} with the "
         f"factor; the printed formula gives |H| = {np.linalg.norm(printed.T @ momentum):.4f}, "
         f"although |H| = {conserved:.4f} kg m^2/s is conserved",
@@ -201,8 +206,8 @@ def latitude_angle_start(grounds: Grounds) -> Proof:
     apart = float(np.linalg.norm(without - np.array(printed, dtype=float)))
     return Proof(
         _all_match(printed, correct) and not _all_match(printed, without),
-        f"r = {_text(without, 1)} km",
-        f"r = {_text(correct, 1)} km",
+        f"r = {vector(without, 1)} km",
+        f"r = {vector(correct, 1)} km",
         f"Without the initial angle the position at {time:g} s is {apart:.0f} km from the "
         f"printed one, with it the printed digits come out",
     )
@@ -222,10 +227,7 @@ def visibility_overlap(grounds: Grounds) -> Proof:
     corrected = _meets(angles, visible).astype(int) + (angles > limit)
     day = grounds.table("day.parquet")
     times = day["time_s"].to_numpy()[:: max(1, len(day) // 20000)]
-    lmo, gmo = (
-        np.array([orbit_frame(orbit, t)[0] for t in times]) for orbit in (given.lmo, given.gmo)
-    )
-    separation = np.degrees(np.arccos(np.clip(np.sum(lmo * gmo, axis=1), -1.0, 1.0)))
+    separation = np.degrees(angle_between(*directions(given, times)))
     closest = np.min(np.abs(separation - limit))
     return Proof(
         np.any(as_printed != 1) and np.all(corrected == 1),
@@ -272,9 +274,9 @@ def reference_rate_frame(grounds: Grounds) -> Proof:
     apart, correct = (float(np.linalg.norm(body_rate - one)) for one in (inertial, reference_rate))
     return Proof(
         apart > 0.1 * given.lmo.rate > 10.0 * correct,
-        f"omega_R/N = {_text(1e6 * inertial, 0)}e-6 rad/s, inertial components",
-        f"omega_R/N = {_text(1e6 * reference_rate, 0)}e-6 rad/s, body components",
-        f"At the end of the nadir run the body rate is {_text(1e6 * body_rate, 0)}e-6 rad/s: "
+        f"omega_R/N = {vector(1e6 * inertial, 0)}e-6 rad/s, inertial components",
+        f"omega_R/N = {vector(1e6 * reference_rate, 0)}e-6 rad/s, body components",
+        f"At the end of the nadir run the body rate is {vector(1e6 * body_rate, 0)}e-6 rad/s: "
         f"{apart:.1e} from the reference's rate in inertial components, which the listings "
         f"plot beside it, and {correct:.1e} from it in body components, which our figures show",
     )
@@ -332,11 +334,11 @@ def tracking_rate_formula(grounds: Grounds) -> Proof:
     fails = any(one.matches(rate) for one, rate in zip(table, printed, strict=True))
     return Proof(
         _all_match(table, correct) and not fails,
-        f"omega_B/R = {_text(printed, 4)} rad/s (Sun)",
-        f"omega_B/R = {_text(np.array(correct), 4)} rad/s (Sun)",
+        f"omega_B/R = {vector(printed, 4)} rad/s (Sun)",
+        f"omega_B/R = {vector(np.array(correct), 4)} rad/s (Sun)",
         f"As printed the rate relative to the resting Sun frame vanishes; without the repeated "
-        f"term it is {_text(np.array(correct), 4)} rad/s, and Table 3 prints "
-        f"{_text(np.array(table, dtype=float), 4)}; the repetition may be "
+        f"term it is {vector(np.array(correct), 4)} rad/s, and Table 3 prints "
+        f"{vector(np.array(table, dtype=float), 4)}; the repetition may be "
         f"a slip of the transcription",
     )
 
@@ -362,7 +364,3 @@ def _row(record: np.ndarray, time: float, key: str) -> np.ndarray:
 
 def _orthogonality_defect(matrix: np.ndarray) -> float:
     return float(np.max(np.abs(matrix @ matrix.T - np.eye(3))))
-
-
-def _text(vector: np.ndarray, decimals: int = 3) -> str:
-    return f"({', '.join(f'{value:.{decimals}f}' for value in vector)})"
