@@ -89,7 +89,7 @@ def _orbit_frame(orbit, time: float) -> np.ndarray:
 
     c, s = np.cos(orbit.inclination), np.sin(orbit.inclination)
     about_1 = np.array([[1, 0, 0], [0, c, s], [0, -s, c]])
-    return about_3(orbit.latitude_angle + orbit.rate * time) @ about_1 @ about_3(orbit.raan)
+    return about_3(orbit.argument_of_latitude + orbit.rate * time) @ about_1 @ about_3(orbit.raan)
 
 
 def _tilde(v: np.ndarray) -> np.ndarray:

@@ -23,7 +23,7 @@ times = st.floats(0.0, 1e5)
 @given(orbits, times)
 def test_orbit_frame_is_the_3_1_3_rotation(orbit, time):
     """Against scipy's Euler angles, to 1e-13; hence orthonormal and right-handed."""
-    angles = [orbit.raan, orbit.inclination, orbit.latitude_angle + orbit.rate * time]
+    angles = [orbit.raan, orbit.inclination, orbit.argument_of_latitude + orbit.rate * time]
     expected = Rotation.from_euler("ZXZ", angles).as_matrix().T
     np.testing.assert_allclose(orbit_frame(orbit, time), expected, rtol=0, atol=1e-13)
 

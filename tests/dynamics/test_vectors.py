@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from smallsat.dynamics.vectors import combined, cross, dot, scaled, times, times_transposed, unit
+from smallsat.dynamics.vectors import axpy, cross, dot, scaled, times, times_transposed, unit
 
 number = st.floats(-1e3, 1e3)
 vector = st.tuples(number, number, number)
@@ -17,7 +17,7 @@ def test_vector_operations(a, b, factor):
     np.testing.assert_allclose(dot(a, b), np.dot(a, b), atol=1e-9)
     np.testing.assert_allclose(cross(a, b), np.cross(a, b), atol=1e-9)
     np.testing.assert_allclose(scaled(factor, a), factor * np.array(a), atol=1e-9)
-    np.testing.assert_allclose(combined(a, factor, b), a + factor * np.array(b), atol=1e-9)
+    np.testing.assert_allclose(axpy(factor, b, a), a + factor * np.array(b), atol=1e-9)
 
 
 @given(matrix, matrix, vector)

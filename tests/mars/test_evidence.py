@@ -29,7 +29,7 @@ PROOFS = [
     "gmo_frame_roots",
     "gain_name",
     "gain_fraction",
-    "latitude_angle_start",
+    "argument_of_latitude_start",
     "visibility_overlap",
     "second_rate_panel",
     "reference_rate_frame",
@@ -51,7 +51,7 @@ def test_proof_holds(section, results, grounds, name):
     [
         ("nadir_frame_sign", ("orbits", "lmo", "inclination_deg"), 0.0),
         ("kinetic_energy_half", ("spacecraft", "initial_rate_deg_s"), [0.1, 0.1, 0.1]),
-        ("latitude_angle_start", ("orbits", "lmo", "latitude_angle_deg"), 0.0),
+        ("argument_of_latitude_start", ("orbits", "lmo", "argument_of_latitude_deg"), 0.0),
         ("gain_fraction", ("spacecraft", "inertia_kg_m2"), [10.0, 0.6, 7.5]),
         ("day_length", ("orbits", "gmo", "rate_rad_s"), 2.0 * np.pi / 90000.0),
         ("switch_thresholds", ("mrp_switch",), dict.fromkeys(["torque", "sun", "nadir"], 1.0)),
@@ -74,7 +74,7 @@ def test_proof_fails_where_the_document_would_be_right(section, results, grounds
         ("table_8_misprint", "table-8/sigma-b-n-at-t-4400-s/full-mission/1", "-0.433"),
         # The energy that follows from the printed formula.
         ("kinetic_energy_half", "section-ix-b/kinetic-energy-t-500-s/no-torque", "0.01877"),
-        ("latitude_angle_start", "section-iii-c/inertial-position-r-lmo-450-s/lmo/x", "0.0"),
+        ("argument_of_latitude_start", "section-iii-c/inertial-position-r-lmo-450-s/lmo/x", "0.0"),
         ("day_length", "listing-a-l-task-11/tf-commented-out/day-long-run", "88620"),
         # A table that followed from the printed formula.
         ("tracking_rate_formula", "table-3/omega-b-r-t0/sun-pointing/2", "0.0000"),

@@ -25,7 +25,7 @@ TRUTH = {
     "body_size_m": {"radial": 0.2, "along": 0.3, "normal": 0.1},
     "inclination_deg": 51.6,
     "raan_deg": 20.0,
-    "latitude_angle_deg": 30.0,
+    "argument_of_latitude_deg": 30.0,
     "earth_angle_deg": 40.0,
     "step_s": 30.0,
 }

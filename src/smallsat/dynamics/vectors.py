@@ -28,9 +28,9 @@ def scaled(factor, a):
 
 
 @compiled
-def combined(a, factor, b):
-    """Sum a + factor b."""
-    return (a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2])
+def axpy(a, x, y):
+    """Sum a x + y of a number and two vectors, as BLAS calls it."""
+    return (y[0] + a * x[0], y[1] + a * x[1], y[2] + a * x[2])
 
 
 @compiled

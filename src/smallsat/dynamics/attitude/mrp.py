@@ -9,7 +9,7 @@ use inside integration loops and return tuples; tests compare them with scipy.
 from math import sqrt
 
 from smallsat.dynamics.compiled import compiled
-from smallsat.dynamics.vectors import combined, cross, dot, scaled
+from smallsat.dynamics.vectors import axpy, cross, dot, scaled
 
 
 @compiled
@@ -74,5 +74,5 @@ def mrp_rate(sigma, rate):
     tuple, shape (3,)
         1/s.
     """
-    turned = combined(scaled(1.0 - dot(sigma, sigma), rate), 2.0, cross(sigma, rate))
-    return scaled(0.25, combined(turned, 2.0 * dot(sigma, rate), sigma))
+    turned = axpy(2.0, cross(sigma, rate), scaled(1.0 - dot(sigma, sigma), rate))
+    return scaled(0.25, axpy(2.0 * dot(sigma, rate), sigma, turned))

@@ -6,7 +6,7 @@ gyroscopic torque, as it does, and 0 for the simpler model of a body under outer
 """
 
 from smallsat.dynamics.compiled import compiled
-from smallsat.dynamics.vectors import combined, cross, times
+from smallsat.dynamics.vectors import axpy, cross, times
 
 
 @compiled
@@ -26,6 +26,6 @@ def angular_acceleration(inertia, inverse, rate, given, torque, outer, carried):
     carried : float
         1 or 0, see above.
     """
-    momentum = combined(times(inertia, rate), -carried, given)
-    net = combined(combined(torque, 1.0, outer), 1.0, cross(momentum, rate))
+    momentum = axpy(-carried, given, times(inertia, rate))
+    net = axpy(1.0, cross(momentum, rate), axpy(1.0, outer, torque))
     return times(inverse, net)

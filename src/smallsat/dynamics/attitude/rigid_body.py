@@ -6,7 +6,7 @@ components, rad/s, and ``inertia`` holds the principal moments, kg m^2. Vectors 
 
 from smallsat.dynamics.attitude.mrp import mrp_rate, shadow
 from smallsat.dynamics.compiled import compiled
-from smallsat.dynamics.vectors import combined, cross, dot
+from smallsat.dynamics.vectors import axpy, cross, dot
 
 
 @compiled
@@ -24,7 +24,7 @@ def kinetic_energy(inertia, rate):
 @compiled
 def angular_acceleration(inertia, rate, torque):
     """Euler's equation: angular acceleration, rad/s^2, under a torque in body components, N m."""
-    net = combined(torque, 1.0, cross(angular_momentum(inertia, rate), rate))
+    net = axpy(1.0, cross(angular_momentum(inertia, rate), rate), torque)
     return (net[0] / inertia[0], net[1] / inertia[1], net[2] / inertia[2])
 
 
@@ -49,14 +49,14 @@ def runge_kutta_step(sigma, rate, inertia, torque, step, switch_norm):
     """
     s1 = mrp_rate(sigma, rate)
     r1 = angular_acceleration(inertia, rate, torque)
-    rate2 = combined(rate, 0.5 * step, r1)
-    s2 = mrp_rate(combined(sigma, 0.5 * step, s1), rate2)
+    rate2 = axpy(0.5 * step, r1, rate)
+    s2 = mrp_rate(axpy(0.5 * step, s1, sigma), rate2)
     r2 = angular_acceleration(inertia, rate2, torque)
-    rate3 = combined(rate, 0.5 * step, r2)
-    s3 = mrp_rate(combined(sigma, 0.5 * step, s2), rate3)
+    rate3 = axpy(0.5 * step, r2, rate)
+    s3 = mrp_rate(axpy(0.5 * step, s2, sigma), rate3)
     r3 = angular_acceleration(inertia, rate3, torque)
-    rate4 = combined(rate, step, r3)
-    s4 = mrp_rate(combined(sigma, step, s3), rate4)
+    rate4 = axpy(step, r3, rate)
+    s4 = mrp_rate(axpy(step, s3, sigma), rate4)
     r4 = angular_acceleration(inertia, rate4, torque)
 
     new = _weighted(sigma, step, s1, s2, s3, s4)
@@ -67,5 +67,5 @@ def runge_kutta_step(sigma, rate, inertia, torque, step, switch_norm):
 
 @compiled
 def _weighted(start, step, k1, k2, k3, k4):
-    outer, inner = combined(k1, 1.0, k4), combined(k2, 1.0, k3)
-    return combined(start, step / 6.0, combined(outer, 2.0, inner))
+    outer, inner = axpy(1.0, k4, k1), axpy(1.0, k3, k2)
+    return axpy(step / 6.0, axpy(2.0, inner, outer), start)

@@ -8,7 +8,7 @@ from math import cos, sin
 from typing import NamedTuple
 
 from smallsat.dynamics.compiled import compiled
-from smallsat.dynamics.vectors import combined, cross, scaled, unit
+from smallsat.dynamics.vectors import axpy, cross, scaled, unit
 
 
 class CircularOrbit(NamedTuple):
@@ -22,7 +22,7 @@ class CircularOrbit(NamedTuple):
         Right ascension of the ascending node, rad.
     inclination
         Inclination, rad.
-    latitude_angle
+    argument_of_latitude
         Argument of latitude at time zero, rad.
     rate
         Orbit rate, rad/s, constant.
@@ -31,7 +31,7 @@ class CircularOrbit(NamedTuple):
     radius: float
     raan: float
     inclination: float
-    latitude_angle: float
+    argument_of_latitude: float
     rate: float
 
 
@@ -50,15 +50,15 @@ def orbit_frame(orbit, time):
     tuple, shape (3, 3)
         [ON]: rows are the radial, along-track and orbit-normal directions.
     """
-    angle = orbit.latitude_angle + orbit.rate * time
+    angle = orbit.argument_of_latitude + orbit.rate * time
     cos_u, sin_u = cos(angle), sin(angle)
     cos_i, sin_i = cos(orbit.inclination), sin(orbit.inclination)
     cos_n, sin_n = cos(orbit.raan), sin(orbit.raan)
     # Directions of the ascending node and, in the orbit's plane, of the point a quarter turn on.
     node = (cos_n, sin_n, 0.0)
     quarter = (-cos_i * sin_n, cos_i * cos_n, sin_i)
-    radial = combined(scaled(cos_u, node), sin_u, quarter)
-    along = combined(scaled(-sin_u, node), cos_u, quarter)
+    radial = axpy(sin_u, quarter, scaled(cos_u, node))
+    along = axpy(cos_u, quarter, scaled(-sin_u, node))
     return radial, along, (sin_i * sin_n, -sin_i * cos_n, cos_i)
 
 

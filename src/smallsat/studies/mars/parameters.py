@@ -60,7 +60,7 @@ def parameters(section: Config) -> Parameters:
             radius=radius + entry["altitude_km"] * KM,
             raan=float(np.radians(entry["raan_deg"])),
             inclination=float(np.radians(entry["inclination_deg"])),
-            latitude_angle=float(np.radians(entry["latitude_angle_deg"])),
+            argument_of_latitude=float(np.radians(entry["argument_of_latitude_deg"])),
             rate=float(entry["rate_rad_s"]),
         )
 

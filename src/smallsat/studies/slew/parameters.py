@@ -118,7 +118,10 @@ def parameters(section: Config) -> Parameters:
     """Convert the ``slew`` section of the configuration."""
     gravity, orbit, wheels = section["gravity"], section["orbit"], section["wheels"]
     manoeuvre = section["manoeuvre"]
-    angles = [orbit[f"{name}_deg"] for name in ("inclination", "raan", "perigee", "anomaly")]
+    angles = [
+        orbit[f"{name}_deg"]
+        for name in ("inclination", "raan", "argument_of_perigee", "true_anomaly")
+    ]
     return Parameters(
         gravity=Gravity(
             gravity["mu_km3_s2"] * KM**3, gravity["earth_radius_km"] * KM, gravity["j2"]

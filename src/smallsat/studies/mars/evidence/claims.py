@@ -84,7 +84,7 @@ def euler_angle_rates(grounds: Grounds) -> Judgement:
     given = parameters(grounds.config["mars"])
     lmo = given.lmo
     s, c = np.sin(lmo.inclination), np.cos(lmo.inclination)
-    angle = lmo.latitude_angle
+    angle = lmo.argument_of_latitude
     matrix = np.array(
         [
             [np.sin(angle), np.cos(angle), 0.0],

@@ -195,13 +195,13 @@ def gain_fraction(grounds: Grounds) -> Proof:
     )
 
 
-def latitude_angle_start(grounds: Grounds) -> Proof:
+def argument_of_latitude_start(grounds: Grounds) -> Proof:
     """theta(t) = rate t omits theta(t0): without it the verified position does not come out."""
     section = grounds.config["mars"]
     lmo = parameters(section).lmo
     time = float(section["answer_times_s"]["position_lmo"])
     correct = np.array(position(lmo, time)) / KM
-    without = np.array(position(lmo._replace(latitude_angle=0.0), time)) / KM
+    without = np.array(position(lmo._replace(argument_of_latitude=0.0), time)) / KM
     printed = grounds.ledger.values("section-iii-c/inertial-position-r-lmo-450-s/lmo")
     apart = float(np.linalg.norm(without - np.array(printed, dtype=float)))
     return Proof(

@@ -129,7 +129,7 @@ def orbit_angles(orbit: CircularOrbit) -> Drawing:
     across = np.cross(up, x_axis)
     arcs = {
         r"$\Omega$": (0.45, orbit.raan, x_axis, across),
-        r"$\theta$": (0.45, orbit.latitude_angle, node, quarter),
+        r"$\theta$": (0.45, orbit.argument_of_latitude, node, quarter),
         # Between the planes, drawn on the side away from the satellite.
         "$i$": (0.8, orbit.inclination, np.cross(node, up), -up),
     }

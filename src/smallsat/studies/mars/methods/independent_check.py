@@ -163,7 +163,7 @@ def _orbit(orbit, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         [
             np.full_like(times, orbit.raan),
             np.full_like(times, orbit.inclination),
-            orbit.latitude_angle + orbit.rate * times,
+            orbit.argument_of_latitude + orbit.rate * times,
         ]
     )
     rotation = Rotation.from_euler("ZXZ", angles)

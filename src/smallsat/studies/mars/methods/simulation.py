@@ -11,7 +11,7 @@ from smallsat.config import Config
 from smallsat.dynamics.attitude.mrp import dcm_to_mrp, mrp_to_dcm
 from smallsat.dynamics.attitude.rigid_body import runge_kutta_step
 from smallsat.dynamics.compiled import compiled
-from smallsat.dynamics.vectors import combined, scaled, times, times_transposed
+from smallsat.dynamics.vectors import axpy, scaled, times, times_transposed
 from smallsat.studies.mars.model.frames import (
     SUN_FRAME,
     SUN_FRAME_RATE,
@@ -75,7 +75,7 @@ def tracking_error(sigma, rate, frame, frame_rate):
     body = mrp_to_dcm(sigma)
     return (
         dcm_to_mrp(times_transposed(body, frame)),
-        combined(rate, -1.0, times(body, frame_rate)),
+        axpy(-1.0, times(body, frame_rate), rate),
     )
 
 
@@ -138,8 +138,8 @@ def integrate(
             frame, frame_rate = reference(mode, lmo, gmo, time, difference)
             sigma_reference = dcm_to_mrp(frame)
             sigma_error, rate_error = tracking_error(sigma, rate, frame, frame_rate)
-            rate_reference = combined(rate, -1.0, rate_error)
-            torque = combined(scaled(-gains.k, sigma_error), -gains.p, rate_error)
+            rate_reference = axpy(-1.0, rate_error, rate)
+            torque = axpy(-gains.p, rate_error, scaled(-gains.k, sigma_error))
         out[k, 0] = time
         for i in range(3):
             out[k, 1 + i] = sigma[i]

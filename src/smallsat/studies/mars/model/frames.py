@@ -7,7 +7,7 @@ tuples (see `smallsat.dynamics.vectors`).
 
 from smallsat.dynamics.compiled import compiled
 from smallsat.dynamics.orbits.circular_orbits import hill_frame, orbit_frame, position, velocity
-from smallsat.dynamics.vectors import combined, cross, dot, scaled, unit
+from smallsat.dynamics.vectors import axpy, cross, dot, scaled, unit
 
 # The Sun stands still in the direction of the inertial second axis (mars, Eq. 19).
 SUN_FRAME = ((-1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, 1.0, 0.0))
@@ -33,7 +33,7 @@ def gmo_frame(lmo, gmo, time):
 
     mars, Eq. 28.
     """
-    sight = combined(position(gmo, time), -1.0, position(lmo, time))
+    sight = axpy(-1.0, position(lmo, time), position(gmo, time))
     first, second = unit(scaled(-1.0, sight)), unit((sight[1], -sight[0], 0.0))
     return first, second, cross(first, second)
 
@@ -44,7 +44,7 @@ def gmo_frame_rate(lmo, gmo, time, difference):
     now, later = gmo_frame(lmo, gmo, time), gmo_frame(lmo, gmo, time + difference)
     # The difference times [RN] transposed is -[~w] in frame components. It is skew only in the
     # limit; like the document, take the three entries above its diagonal.
-    change_1 = scaled(1.0 / difference, combined(later[0], -1.0, now[0]))
-    change_2 = scaled(1.0 / difference, combined(later[1], -1.0, now[1]))
+    change_1 = scaled(1.0 / difference, axpy(-1.0, now[0], later[0]))
+    change_2 = scaled(1.0 / difference, axpy(-1.0, now[1], later[1]))
     about_1, about_2, about_3 = dot(change_2, now[2]), -dot(change_1, now[2]), dot(change_1, now[1])
-    return combined(combined(scaled(about_1, now[0]), about_2, now[1]), about_3, now[2])
+    return axpy(about_3, now[2], axpy(about_2, now[1], scaled(about_1, now[0])))

@@ -33,7 +33,7 @@ def target_state(settings: Config, mean_motion: float) -> np.ndarray:
         Mean motion of the target, rad/s.
     """
     angles = np.radians(
-        [settings["inclination_deg"], settings["raan_deg"], settings["latitude_angle_deg"]]
+        [settings["inclination_deg"], settings["raan_deg"], settings["argument_of_latitude_deg"]]
     )
     elements = Elements(orbit_radius(mean_motion), 0.0, angles[0], angles[1], 0.0, angles[2])
     return np.concatenate(state_of(elements, egm96.MU))
