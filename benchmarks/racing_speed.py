@@ -10,7 +10,7 @@ import numpy as np
 
 from smallsat.config import read_yaml
 from smallsat.studies.racing.methods.course_program import CourseProgram
-from smallsat.studies.racing.methods.races import fly_as_published, fly_optima, whole_leg
+from smallsat.studies.racing.methods.races import solve_as_published, solve_optima, whole_leg
 from smallsat.studies.racing.model.course import generate
 from smallsat.studies.racing.model.cubesat import CubeSat
 from smallsat.studies.racing.parameters import parameters
@@ -37,13 +37,13 @@ def measure() -> dict[str, float]:
         found[f"whole_course_{craft.name}_converged"] = float(plan.converged)
 
     # Compiled before the clock starts.
-    fly_as_published(given, 1e-12, "scenario-1", given.as_published, ("Miny",))
+    solve_as_published(given, 1e-12, "scenario-1", given.as_published, ("Miny",))
     for scenario in given.races:
         began = time.perf_counter()
-        fly_as_published(given, 1e-12, scenario, given.as_published)
+        solve_as_published(given, 1e-12, scenario, given.as_published)
         found[f"as_published_{scenario}_s"] = time.perf_counter() - began
         began = time.perf_counter()
-        fly_optima(given, section, scenario)
+        solve_optima(given, section, scenario)
         found[f"all_other_solutions_{scenario}_s"] = time.perf_counter() - began
 
     rings = given.races["scenario-2"].course.rings

@@ -7,7 +7,7 @@ import pytest
 
 from smallsat.studies.racing.evidence.errata import ranks_at
 from smallsat.studies.racing.methods.as_published import Target, guess, least_time, solve_segment
-from smallsat.studies.racing.methods.flight import fly_segment
+from smallsat.studies.racing.methods.flight import propagate_segment
 from smallsat.studies.racing.model.shooting import (
     AXIS_BY_AXIS,
     DIRECTED,
@@ -75,7 +75,9 @@ def test_quadrature_is_the_flight(given, transposed):
         state, costate, 100.0, rate_matrix(given.mean_motion),
         costate_matrix(given.mean_motion, transposed), DIRECTED, np.full(3, craft.thrust), 1.0, 128,
     )  # fmt: skip
-    _, flown = fly_segment(state, costate, 100.0, craft, given.mean_motion, 1.0, 1e-12, transposed)
+    _, flown = propagate_segment(
+        state, costate, 100.0, craft, given.mean_motion, 1.0, 1e-12, transposed
+    )
     assert np.abs(x[:3] - flown[-1, :3]).max() < 1e-5
     assert p == pytest.approx(flown[-1, 6:], rel=1e-9)
 

@@ -17,7 +17,7 @@ from smallsat.studies.racing.evidence.scores import missed_table, printed_scores
 from smallsat.studies.racing.figures import plots
 from smallsat.studies.racing.methods import attempts, checks
 from smallsat.studies.racing.methods.course_program import CourseProgram
-from smallsat.studies.racing.methods.races import WHOLE, fly_optima, whole_leg
+from smallsat.studies.racing.methods.races import WHOLE, solve_optima, whole_leg
 from smallsat.studies.racing.model.course import Course
 from smallsat.studies.racing.model.cubesat import CubeSat
 from smallsat.studies.racing.parameters import Race
@@ -47,7 +47,7 @@ def weak(given, section, short):
     small = deepcopy(section)
     small["optimum"]["intervals"] = 8
     changed = replace(given, races=given.races | {"scenario-1": Race(short, cubesats)})
-    return fly_optima(changed, small, "scenario-1")
+    return solve_optima(changed, small, "scenario-1")
 
 
 def _flown(plan, mean_motion):

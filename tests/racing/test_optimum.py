@@ -8,7 +8,7 @@ from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
 from smallsat.studies.racing.methods import indirect
 from smallsat.studies.racing.methods.checks import primer_check
 from smallsat.studies.racing.methods.course_program import CourseProgram, Leg
-from smallsat.studies.racing.methods.flight import fly_plan, residual
+from smallsat.studies.racing.methods.flight import propagate_plan, residual
 from smallsat.studies.racing.model.cubesat import cubesat
 
 RINGS = 3
@@ -57,7 +57,7 @@ def test_rings_are_crossed_when_flown_adaptively(given, leg, program, craft):
             assert state[3:] @ leg.normals[k] > 0.0
     assert np.linalg.norm(state[:3] - leg.end_position) < 1e-6
     assert np.linalg.norm(state[3:]) < 1e-6
-    assert residual(plan, fly_plan(plan, given.mean_motion), craft, None) < 1e-6
+    assert residual(plan, propagate_plan(plan, given.mean_motion), craft, None) < 1e-6
 
 
 def test_nested_meshes_never_get_worse(given, leg):

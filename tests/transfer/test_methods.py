@@ -16,9 +16,9 @@ from smallsat.studies.transfer.methods.direct import (
     shooting_program,
 )
 from smallsat.studies.transfer.methods.extremals import Found, find_extremals
-from smallsat.studies.transfer.methods.indirect import condition_error, fly_extremal
+from smallsat.studies.transfer.methods.indirect import condition_error, propagate_extremal
 from smallsat.studies.transfer.model.problem import TransferProblem
-from smallsat.studies.transfer.model.trajectory import boundary_error, fly
+from smallsat.studies.transfer.model.trajectory import boundary_error, propagate
 from smallsat.studies.transfer.model.units import canonical, units_of
 
 
@@ -42,19 +42,19 @@ def extremal(problem, config):
 
 def test_extremal_meets_its_conditions_with_another_integrator(problem, extremal):
     """LSODA against the fixed-step solution: all six conditions to 1e-9."""
-    final, _ = fly_extremal(problem, extremal, 3)
+    final, _ = propagate_extremal(problem, extremal, 3)
     assert condition_error(problem, final) < 1e-9
 
 
 def test_hamiltonian_vanishes_along_the_extremal(problem, extremal):
     """Autonomous problem with free final time: H = 0 throughout, to 1e-9."""
-    _, table = fly_extremal(problem, extremal, 200)
+    _, table = propagate_extremal(problem, extremal, 200)
     assert table["hamiltonian"].abs().max() < 1e-9
 
 
 def test_indirect_collocation_agrees(problem, extremal):
     """Another method of solution (solve_bvp) from a rough guess: the same final time to 1e-7."""
-    table = fly_extremal(problem, extremal, 481)[1]
+    table = propagate_extremal(problem, extremal, 481)[1]
     solution, _ = beyond.indirect_collocation(problem, table, rough=True)
     assert solution.success
     assert solution.p[0] == pytest.approx(extremal.final_time, abs=1e-7)
@@ -89,7 +89,7 @@ def test_other_transfers_are_solved_for_every_number_of_intervals(other_transfer
     times = [one.final_time for one in found.values()]
     assert np.ptp(times) < 1e-8
     for one in found.values():
-        assert condition_error(other, fly_extremal(other, one, 3)[0]) < 1e-8
+        assert condition_error(other, propagate_extremal(other, one, 3)[0]) < 1e-8
         assert other.final_mass(one.final_time) > 0.0
 
 
@@ -101,7 +101,7 @@ def test_direct_collocation_from_a_rough_guess_ends_at_the_same_time(other_trans
     other, found = other_transfer[0], other_transfer[1][1]
     turns_fast = other.thrust == FAST_TURN["thrust"] and other.final_radius > 1.0
     mesh = Collocation(160, 4, "legendre")
-    table = fly_extremal(other, found, 481)[1]
+    table = propagate_extremal(other, found, 481)[1]
     solution, _ = beyond.direct_collocation(other, table, mesh, rough=True)
     assert solution.converged
     room = 1e-4 if turns_fast else 1e-5
@@ -140,7 +140,7 @@ def test_time_falls_with_thrust_and_rises_with_distance(problem):
 
 
 def _solve(problem, case, extremal, **options):
-    _, table = fly_extremal(problem, extremal, 481)
+    _, table = propagate_extremal(problem, extremal, 481)
     program = shooting_program(problem, case, 112, time_bounds=(3.0, 4.0), **options)
     bound = 5 * (case.intervals - 1)
     program.lower[:bound], program.upper[:bound] = -1.0, 4.0
@@ -162,7 +162,7 @@ def test_direct_solutions_nest_and_stay_above_the_extremal(problem, extremal):
     for degree in (2, 3, 4):
         case = Case(degree, 4, "local")
         solution = _solve(problem, case, extremal)
-        final, _ = fly(problem, control_history(case, solution.variables))
+        final, _ = propagate(problem, control_history(case, solution.variables))
         assert solution.converged
         assert boundary_error(problem, final) < 1e-9
         assert extremal.final_time - 1e-9 < solution.objective <= previous + 1e-9

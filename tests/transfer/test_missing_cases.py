@@ -17,7 +17,7 @@ from smallsat.studies.transfer.methods import experiments, extremals
 from smallsat.studies.transfer.methods.continuation import ContinuationError
 from smallsat.studies.transfer.methods.indirect import ConvergenceError
 from smallsat.studies.transfer.model.problem import TransferProblem
-from smallsat.studies.transfer.model.trajectory import ControlHistory, boundary_error, fly
+from smallsat.studies.transfer.model.trajectory import ControlHistory, boundary_error, propagate
 from smallsat.studies.transfer.steps import observations
 from smallsat.workflow.run_step import run_step
 
@@ -116,7 +116,7 @@ def test_what_cannot_be_flown_is_no_number_and_meets_nothing(config, final_time)
     """No time, no end, or no mass left: no state, and an infinite error."""
     problem = TransferProblem.from_config(config["transfer"])
     times = np.array([0.0, final_time])
-    state, table = fly(problem, ControlHistory(times, [lambda t: 0.0 * t]), 5)
+    state, table = propagate(problem, ControlHistory(times, [lambda t: 0.0 * t]), 5)
     assert np.isnan(state).all()
     assert table.empty
     assert boundary_error(problem, state) == np.inf

@@ -11,7 +11,7 @@ from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
 from smallsat.evidence.errata import Proof
 from smallsat.evidence.grounds import Grounds
 from smallsat.studies.racing.methods import as_published
-from smallsat.studies.racing.methods.flight import fly_segment
+from smallsat.studies.racing.methods.flight import propagate_segment
 from smallsat.studies.racing.methods.races import INDIRECT
 from smallsat.studies.racing.methods.recovery import start_positions
 from smallsat.studies.racing.model.course import generate
@@ -138,7 +138,7 @@ def hamiltonian_drift(config: Config, transposed: bool) -> tuple[float, float]:
         race.course.centres[0], race.course.normals[0], 0.0, race.course.start, False
     )
     guess, _ = as_published.guess(state, target, cubesat.thrust, given.as_published)
-    _, flown = fly_segment(
+    _, flown = propagate_segment(
         state, guess[:6], SECONDS, cubesat, given.mean_motion, 1.0, 1e-12, transposed
     )
     a = rate_matrix(given.mean_motion)

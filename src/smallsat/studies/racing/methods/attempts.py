@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from smallsat.evidence.not_converged import NotConverged
 from smallsat.studies.racing.methods.course_program import Arcs, CourseProgram, Leg, Plan
-from smallsat.studies.racing.methods.flight import fly_plan, residual
+from smallsat.studies.racing.methods.flight import propagate_plan, residual
 from smallsat.studies.racing.model.cubesat import CubeSat
 
 SMOOTH = "smooth arcs"
@@ -52,7 +52,7 @@ def _continued(
 
 def not_converged(case: str, plan: Plan, cubesat: CubeSat, mean_motion: float) -> NotConverged:
     """The row of a leg without a solution; the residual is that of its last plan when flown."""
-    flown = fly_plan(plan, mean_motion)
+    flown = propagate_plan(plan, mean_motion)
     return NotConverged(
         case,
         plan.solution.status,

@@ -13,7 +13,7 @@ from smallsat.dynamics.orbits.clohessy_wiltshire import costate_transition, rate
 from smallsat.evidence.not_converged import NotConverged
 from smallsat.studies.racing.methods import attempts
 from smallsat.studies.racing.methods.course_program import Arcs, Leg, Plan, length_unit
-from smallsat.studies.racing.methods.flight import fly_plan, residual
+from smallsat.studies.racing.methods.flight import propagate_plan, residual
 from smallsat.studies.racing.methods.races import ANYWHERE, REST, WHOLE, program, whole_leg
 from smallsat.studies.racing.model.course import Course
 from smallsat.studies.racing.model.cubesat import CubeSat
@@ -50,7 +50,7 @@ def mesh_refinement(given: Parameters, section: Config, scenario: str) -> Checke
             row = {"scenario": scenario, "cubesat": cubesat.name, "intervals": intervals}
             if plan.converged:
                 coarser = plan
-                flown = fly_plan(plan, given.mean_motion)
+                flown = propagate_plan(plan, given.mean_motion)
                 row |= {
                     "time_s": plan.time,
                     "converged": True,
@@ -77,7 +77,7 @@ def primer_check(plan: Plan, cubesat: CubeSat, mean_motion: float) -> dict[str, 
     that the primer asks for. The Hamiltonian, which has to be -1, over all pieces.
     """
     segments, intervals, _ = plan.controls.shape
-    flown = fly_plan(plan, mean_motion)
+    flown = propagate_plan(plan, mean_motion)
     a = rate_matrix(mean_motion)
     angles, signs, hamiltonians, jumps, full = [], [], [], [], []
     steps = (flown.shape[1] - 1) // intervals
@@ -290,7 +290,7 @@ def thrust_sweep(given: Parameters, section: Config, scenario: str) -> Checked:
             if not plan.converged:
                 case = f"{scenario}, thrust of {thrust:g} m/s^2, {name}"
                 missing.append(attempts.not_converged(case, plan, cubesat, given.mean_motion))
-            flown = fly_plan(plan, given.mean_motion)
+            flown = propagate_plan(plan, given.mean_motion)
             row |= {
                 f"{name} (s)": plan.time if plan.converged else np.nan,
                 f"{name}, converged": plan.converged,

@@ -28,7 +28,7 @@ COSTATE = ["px", "py", "pz", "pvx", "pvy", "pvz"]
 
 
 @compiled
-def _fly(state, controls, durations, a, steps):
+def _propagate(state, controls, durations, a, steps):
     """States (m, N steps + 1, 6) by the classical method of order 4."""
     segments, intervals = controls.shape[:2]
     flown = np.empty((segments, intervals * steps + 1, 6))
@@ -48,9 +48,9 @@ def _fly(state, controls, durations, a, steps):
     return flown
 
 
-def fly_plan(plan: Plan, mean_motion: float) -> np.ndarray:
+def propagate_plan(plan: Plan, mean_motion: float) -> np.ndarray:
     """States (m, N steps + 1, 6) of a plan, flown from its start through all segments."""
-    return _fly(
+    return _propagate(
         plan.starts[0],
         plan.controls,
         plan.durations,
@@ -67,7 +67,7 @@ def _steps(plan: Plan, mean_motion: float) -> int:
 
 def plan_table(plan: Plan, mean_motion: float) -> pd.DataFrame:
     """Tidy table of a flown plan: time, state, thrust and costates by segment."""
-    flown = fly_plan(plan, mean_motion)
+    flown = propagate_plan(plan, mean_motion)
     segments, points = flown.shape[:2]
     parts = []
     began = 0.0
@@ -92,7 +92,7 @@ def _part(
     return table
 
 
-def fly_segment(
+def propagate_segment(
     state: np.ndarray,
     costate: np.ndarray,
     duration: float,

@@ -23,10 +23,10 @@ from smallsat.studies.racing.methods.flight import (
     RING,
     STATE,
     THRUST,
-    fly_plan,
-    fly_segment,
     minimum_cost,
     plan_table,
+    propagate_plan,
+    propagate_segment,
     residual,
     ring_rows,
     segment_table,
@@ -96,7 +96,7 @@ def segment_name(course: Course, k: int) -> str:
     return f"{k} to {k + 1 if k < course.rings else 'end'}"
 
 
-def fly_optima(given: Parameters, section: Config, scenario: str) -> Tables:
+def solve_optima(given: Parameters, section: Config, scenario: str) -> Tables:
     """Every CubeSat of a scenario by the three well-posed kinds of solution."""
     tables = Tables()
     race = given.races[scenario]
@@ -191,7 +191,7 @@ def _add_plan(
         solved = len(plans) - 1 if plans else 0
         _add_missing(tables, key, course, solved, last.solution.status)
         return
-    flown = fly_plan(plan, given.mean_motion)
+    flown = propagate_plan(plan, given.mean_motion)
     arrivals = np.cumsum(plan.durations)
     rows = ring_rows(course, flown[:, -1], arrivals, given.plane, given.pointing)
     failed = [segment_name(course, k) for k, one in enumerate(plans or [plan]) if not one.converged]
@@ -368,7 +368,7 @@ def _extremal(
     return found
 
 
-def fly_as_published(
+def solve_as_published(
     given: Parameters,
     tolerance: float,
     scenario: str,
@@ -380,11 +380,11 @@ def fly_as_published(
     race = given.races[scenario]
     for cubesat in race.cubesats:
         if not cubesats or cubesat.name in cubesats:
-            _fly_as_published(tables, given, tolerance, scenario, settings, race.course, cubesat)
+            _solve_as_published(tables, given, tolerance, scenario, settings, race.course, cubesat)
     return tables
 
 
-def _fly_as_published(
+def _solve_as_published(
     tables: Tables,
     given: Parameters,
     tolerance: float,
@@ -410,7 +410,7 @@ def _fly_as_published(
         clock = time.perf_counter()
         solved = as_published.solve_segment(state, target, cubesat, given.mean_motion, settings)
         solving += time.perf_counter() - clock
-        times, flown = fly_segment(
+        times, flown = propagate_segment(
             state,
             solved.costate,
             solved.duration,
@@ -478,7 +478,7 @@ def variants(
     tolerance = section["as_published"]["tolerance"]
     parts = []
     for name, settings in changes.items():
-        flown = fly_as_published(given, tolerance, scenario, settings, cubesats)
+        flown = solve_as_published(given, tolerance, scenario, settings, cubesats)
         table = pd.DataFrame(flown.races)
         table["solution"] = name
         parts.append(table.rename(columns={"solution": "variant"}))

@@ -18,7 +18,7 @@ from smallsat.studies.racing.parameters import Parameters
 RULES = {"generator": True, "text": False}
 
 
-def fly_random(
+def solve_random(
     given: Parameters, section: Config, courses: Iterable[int], rings: int
 ) -> tuple[pd.DataFrame, pd.DataFrame, list[NotConverged]]:
     """Some of the random courses, by number: results, seconds, courses not solved.

@@ -2,13 +2,13 @@
 
 from smallsat.evidence.not_converged import not_converged_table
 from smallsat.step import Step, Tables
-from smallsat.studies.racing.methods.races import fly_optima
+from smallsat.studies.racing.methods.races import solve_optima
 from smallsat.studies.racing.parameters import parameters
 
 
 def run(step: Step) -> Tables:
     """Solve it."""
-    flown = fly_optima(parameters(step.section), step.section, step.part)
+    flown = solve_optima(parameters(step.section), step.section, step.part)
     return flown.files(f"optima-{step.part}") | {
         f"optima-{step.part}-not-converged.csv": not_converged_table(flown.not_converged)
     }

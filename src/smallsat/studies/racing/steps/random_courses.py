@@ -2,7 +2,7 @@
 
 from smallsat.evidence.not_converged import not_converged_table
 from smallsat.step import Step, Tables
-from smallsat.studies.racing.methods.random_courses import fly_random
+from smallsat.studies.racing.methods.random_courses import solve_random
 from smallsat.studies.racing.parameters import SCENARIOS, parameters
 
 
@@ -11,7 +11,7 @@ def run(step: Step) -> Tables:
     given = parameters(step.section)
     rings = given.races[SCENARIOS[1]].course.rings
     courses = step.shard.units(step.section["random_courses"]["courses"])
-    found, seconds, missing = fly_random(given, step.section, courses.tolist(), rings)
+    found, seconds, missing = solve_random(given, step.section, courses.tolist(), rings)
     stem = f"random-courses-{step.shard}"
     return {
         f"{stem}.csv": found,

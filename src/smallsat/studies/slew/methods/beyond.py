@@ -172,7 +172,7 @@ def tracking(section: Config, given: Parameters) -> Tables:
                 commands["closed loop on the plan"] = _tracking(section, given, step, plan)
             commands["eigenaxis law"] = controller(section, given, case)
             for name, command in commands.items():
-                row, flown = _fly(section, given, real, command, case, duration)
+                row, flown = _simulate(section, given, real, command, case, duration)
                 rows.append(
                     {
                         "turn": turn,
@@ -217,7 +217,7 @@ def _tracking(section: Config, given: Parameters, step: float, plan: np.ndarray)
     )
 
 
-def _fly(
+def _simulate(
     section: Config, given: Parameters, real: Plant, command: Command, case: str, duration: float
 ) -> tuple[dict, pd.DataFrame]:
     flown = run(given, real, command, duration, section["numerics"]["step_s"])

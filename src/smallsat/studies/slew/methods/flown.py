@@ -19,7 +19,7 @@ NEWTON_STEPS, NEWTON_STEPS_BEYOND = 6, 20
 MODERATE = 0.7
 
 
-def fly_held(
+def propagate_held(
     model: Model, initial: np.ndarray, durations: np.ndarray, controls: np.ndarray
 ) -> np.ndarray:
     """States (pieces + 1, 10), scaled, under controls (pieces, 3) held for the scaled durations.

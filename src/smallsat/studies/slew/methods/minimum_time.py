@@ -10,7 +10,7 @@ from smallsat.config import Config
 from smallsat.evidence.not_converged import NotConverged
 from smallsat.optimal_control.gauss_pseudospectral import Mesh
 from smallsat.optimal_control.switching_times import Arcs, arcs_of, refine
-from smallsat.studies.slew.methods.flown import fly_held, miss
+from smallsat.studies.slew.methods.flown import miss, propagate_held
 from smallsat.studies.slew.methods.guidance_problem import (
     Guidance,
     Model,
@@ -126,7 +126,7 @@ def fastest(
     refined, solution = arcs, best.solution
     if len(arcs.durations) >= CONDITIONS:
         refined, solution = refine(model.rate, stated.initial, stated.terminal, arcs)
-    state = fly_held(model, stated.initial, refined.durations, refined.controls)[-1]
+    state = propagate_held(model, stated.initial, refined.durations, refined.controls)[-1]
     attitude, rate = miss(model, state, target)
     return LeastTime(
         starts=starts,

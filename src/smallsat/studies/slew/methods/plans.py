@@ -11,7 +11,7 @@ from smallsat.evidence.not_converged import NotConverged
 from smallsat.optimal_control.gauss_pseudospectral import Mesh
 from smallsat.optimal_control.nonlinear_program import IpoptSolver, Solution
 from smallsat.optimal_control.zero_order_hold import HeldControl
-from smallsat.studies.slew.methods.flown import fly_held, miss
+from smallsat.studies.slew.methods.flown import miss, propagate_held
 from smallsat.studies.slew.methods.guidance_problem import (
     Guidance,
     Model,
@@ -161,7 +161,7 @@ def hold(model: Model, given: Parameters, case: str, result: Result, section: Co
     solution = solver.solve(guess, [numerics["held_smoothing"]])
     controls = np.clip(method.controls(solution.variables), -1.0, 1.0)
     length = plan.final_time / pieces
-    states = fly_held(model, stated.initial, np.full(pieces, length), controls)
+    states = propagate_held(model, stated.initial, np.full(pieces, length), controls)
     attitude, rate = miss(model, states[-1], target)
     return HeldPlan(
         solution=solution,

@@ -50,7 +50,7 @@ def near_bounds(case: Case, guess: np.ndarray, extremal: pd.DataFrame) -> Bounds
     case, guess
         The case, and its guess from the extremal.
     extremal
-        Table of `smallsat.studies.transfer.methods.indirect.fly_extremal`.
+        Table of `smallsat.studies.transfer.methods.indirect.propagate_extremal`.
     """
     lower, upper = zip(*(_state_bounds(extremal[name], name) for name in STATES), strict=True)
     _, coefficients, final_time = case.split(guess)

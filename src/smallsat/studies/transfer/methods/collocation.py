@@ -24,9 +24,9 @@ from smallsat.optimal_control.nonlinear_program import IpoptSolver, Solution
 from smallsat.studies.transfer.methods.bounds import relative_length, time_bounds
 from smallsat.studies.transfer.methods.experiments import NO_EXTREMAL, extremal_table
 from smallsat.studies.transfer.methods.extremals import SAME_TIME
-from smallsat.studies.transfer.methods.indirect import Extremal, condition_error, fly_extremal
+from smallsat.studies.transfer.methods.indirect import Extremal, condition_error, propagate_extremal
 from smallsat.studies.transfer.model.problem import COSTATES, STATES, TransferProblem
-from smallsat.studies.transfer.model.trajectory import ControlHistory, boundary_error, fly
+from smallsat.studies.transfer.model.trajectory import ControlHistory, boundary_error, propagate
 from smallsat.studies.transfer.model.units import canonical, units_of
 
 Row = dict[str, Any]
@@ -107,7 +107,7 @@ def direct_collocation(
     problem, mesh
         What is solved.
     extremal
-        Table of `fly_extremal`; of a rough guess, its final time alone is used.
+        Table of `propagate_extremal`; of a rough guess, its final time alone is used.
     rough
         Guess a straight line of states and a thrust angle that turns once, instead of the extremal.
     """
@@ -186,7 +186,7 @@ def _direct(
     problem: TransferProblem, extremal: pd.DataFrame, mesh: Collocation, *, rough: bool
 ) -> tuple[Row, str]:
     solution, history = direct_collocation(problem, extremal, mesh, rough=rough)
-    final, _ = fly(problem, history)
+    final, _ = propagate(problem, history)
     row = {
         "method": f"direct collocation, {mesh.points}",
         "intervals": mesh.intervals,
@@ -210,7 +210,7 @@ def _indirect(problem: TransferProblem, extremal: pd.DataFrame, *, rough: bool) 
     residual = np.inf
     if converged:
         found = Extremal(solution.y[:, :1].T, final_time, solution.niter, 0.0, seconds)
-        residual = condition_error(problem, fly_extremal(problem, found, 2)[0])
+        residual = condition_error(problem, propagate_extremal(problem, found, 2)[0])
     row = {
         "method": "indirect collocation, solve_bvp",
         "intervals": solution.x.size - 1,

@@ -152,7 +152,7 @@ def fitted_guess(case: Case, extremal: pd.DataFrame) -> np.ndarray:
     case
         The case to guess for.
     extremal
-        Table of `smallsat.studies.transfer.methods.indirect.fly_extremal`.
+        Table of `smallsat.studies.transfer.methods.indirect.propagate_extremal`.
     """
     t = extremal["t"].to_numpy()
     ends = np.linspace(t[0], t[-1], case.intervals + 1)

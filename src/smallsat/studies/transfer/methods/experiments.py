@@ -37,9 +37,14 @@ from smallsat.studies.transfer.methods.extremals import (
     enough_steps,
     find_extremals,
 )
-from smallsat.studies.transfer.methods.indirect import condition_error, fly_extremal
+from smallsat.studies.transfer.methods.indirect import condition_error, propagate_extremal
 from smallsat.studies.transfer.model.problem import COSTATES, STATES, TransferProblem
-from smallsat.studies.transfer.model.trajectory import COLUMNS, boundary_error, error_magnitude, fly
+from smallsat.studies.transfer.model.trajectory import (
+    COLUMNS,
+    boundary_error,
+    error_magnitude,
+    propagate,
+)
 from smallsat.studies.transfer.model.units import Units, canonical, units_of
 
 Config = dict[str, Any]
@@ -117,7 +122,7 @@ def indirect(config: Config) -> Solved:
         }
         if isinstance(result, Found):
             extremal = result.extremal
-            final, table = fly_extremal(problem, extremal, SAMPLES // intervals + 1)
+            final, table = propagate_extremal(problem, extremal, SAMPLES // intervals + 1)
             by_continuation = "" if result.start == PUBLISHED_GUESS else f", by {result.start}"
             row |= {
                 "final_time": extremal.final_time * units.time,
@@ -166,7 +171,9 @@ def as_published(config: Config, intervals: int) -> Solved:
             solution = solver.solve(guess, tolerance)
             row = _direct_row("as published", case, solution) | {"tolerance": tolerance}
             if tolerance == strict:
-                final, table = fly(problem, control_history(case, solution.variables), _share(case))
+                final, table = propagate(
+                    problem, control_history(case, solution.variables), _share(case)
+                )
                 errors = np.array(problem.terminal_error(final)) / units.state[[0, 2, 3]]
                 row |= {"final_mass": final[4], "residual": error_magnitude(errors)}
                 frames.append(_labelled(table, row))
@@ -228,7 +235,7 @@ def multistart(config: Config) -> tuple[Solved, pd.DataFrame]:
             good = solution.converged and solution.violation < 1e-8
             # A control too wild for the fixed steps shows in a flight with an adaptive method.
             if good:
-                final, _ = fly(problem, control_history(case, solution.variables))
+                final, _ = propagate(problem, control_history(case, solution.variables))
                 good = boundary_error(problem, final) < 1e-5
             starts.append(
                 {
@@ -249,13 +256,13 @@ def multistart(config: Config) -> tuple[Solved, pd.DataFrame]:
 
 
 def extremal_table(config: Config) -> pd.DataFrame | NotConverged:
-    """The extremal of single shooting as a table of `fly_extremal`, in canonical units."""
+    """The extremal of single shooting as a table of `propagate_extremal`, in canonical units."""
     problem, units = _canonical(config)
     steps = config["numerics"]["steps"]["indirect"]
     result = find_extremals(problem, units, (1,), config["guess"], steps)[1]
     if isinstance(result, NotConverged):
         return result
-    return fly_extremal(problem, result.extremal, SAMPLES + 1)[1]
+    return propagate_extremal(problem, result.extremal, SAMPLES + 1)[1]
 
 
 @dataclass(frozen=True)
@@ -324,7 +331,7 @@ def _first_converged(
     """The first solution that converged and meets the end when flown by another integrator."""
     tried, residual = [nothing] if nothing else [], np.inf
     for name, solution, columns in tries:
-        final, table = fly(problem, control_history(case, solution.variables), _share(case))
+        final, table = propagate(problem, control_history(case, solution.variables), _share(case))
         residual = boundary_error(problem, final)
         if solution.converged and residual < FINE:
             row = _direct_row(run, case, solution) | columns

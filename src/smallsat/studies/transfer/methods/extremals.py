@@ -20,7 +20,7 @@ from smallsat.studies.transfer.methods.indirect import (
     adapted_steps,
     condition_error,
     equal_steps,
-    fly_extremal,
+    propagate_extremal,
     published_start,
     solve_extremal,
 )
@@ -134,7 +134,7 @@ def _refined(problem: TransferProblem, intervals: int, start: np.ndarray, steps:
     """Shooting with equal steps, and with adapted ones if another integrator misses the end."""
     extremal = solve_extremal(problem, intervals, start, equal_steps(intervals, steps))
     for _ in range(REFINEMENTS):
-        if condition_error(problem, fly_extremal(problem, extremal, 2)[0]) < FINE:
+        if condition_error(problem, propagate_extremal(problem, extremal, 2)[0]) < FINE:
             break
         start = np.append(extremal.nodes.ravel()[5:], extremal.final_time)
         adapted = adapted_steps(problem, extremal)

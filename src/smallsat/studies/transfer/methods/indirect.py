@@ -160,7 +160,7 @@ def solve_extremal(
     return Extremal(nodes, final_time, int(result.nfev), error, seconds)
 
 
-def fly_extremal(
+def propagate_extremal(
     problem: TransferProblem, extremal: Extremal, samples: int
 ) -> tuple[np.ndarray, pd.DataFrame]:
     """Integrate an extremal from its initial costate with LSODA, resetting nothing at the nodes.

@@ -36,7 +36,7 @@ class ControlHistory:
         return float(self.times[-1])
 
 
-def fly(
+def propagate(
     problem: TransferProblem, history: ControlHistory, samples: int = 0
 ) -> tuple[np.ndarray, pd.DataFrame]:
     """Fly a control history from the initial orbit with LSODA (variable-order Adams and BDF).
