@@ -33,7 +33,7 @@ $(VENV)/installed: requirements.lock pyproject.toml
 # and each of its jobs notes the files that it opens.
 test: $(VENV)/installed
 	@SMALLSAT_OPENED=$(CURDIR)/runs/tests/opened snakemake verdicts --configfile config/tests.yaml
-	@python -m pytest --cov --cov-report=term --cov-report=html
+	@python -m pytest -n 2 --dist loadfile --cov --cov-report=term --cov-report=html
 
 # Modest changes of every study, one line each: done, refused with the reason, or not converged.
 what-ifs: $(VENV)/installed
