@@ -10,10 +10,11 @@ TIMINGS = [path for study in STUDIES for path in MADE[study] if Path(path).name 
 REPORTS = {"report": STUDIES} | {study: [study] for study in STUDIES}
 
 for report, shown in REPORTS.items():
+    prefix = "" if report == "report" else f"{report}_"
 
     rule:
         name:
-            f"{report}_content" if report == "report" else f"{report}_report_content"
+            f"{prefix}report_content"
         input:
             sources=sources("smallsat.report.content"),
             # The catalogue and the kinds of all values; what is shown beside them.
@@ -27,13 +28,19 @@ for report, shown in REPORTS.items():
             config=[
                 project(path.relative_to(ROOT)) for path in sorted(ROOT.glob("config/*/*.yaml"))
             ],
-            verdicts="data/results/verdicts.csv" if report == "report" else [],
+            # Whether a study has a chapter stands in the content.
+            chapters=[
+                project(path.relative_to(ROOT))
+                for path in sorted((ROOT / "report/chapters").glob("*.typ"))
+                if path.stem in shown
+            ],
+            verdicts=[] if prefix else "data/results/verdicts.csv",
             findings=[
                 path
                 for study in shown
                 for path in results(
                     study,
-                    *["verdicts.csv"] * (report != "report"),
+                    *["verdicts.csv"] * bool(prefix),
                     "errata.csv",
                     "claims.csv",
                     "not-converged.csv",
@@ -44,7 +51,7 @@ for report, shown in REPORTS.items():
             # The notebooks that draw them are listed in the report.
             figures=[report_figures(study) for study in shown],
         output:
-            f"report/build/{'content' if report == 'report' else report}.json",
+            f"report/build/{report}.json",
         log:
             f"logs/report/{report}-content.log",
         benchmark:
@@ -53,7 +60,7 @@ for report, shown in REPORTS.items():
             project=lambda w, input: Path(input.config[0]).parents[2],
             config=as_json(CONFIG),
             left_out=as_json(LEFT_OUT),
-            studies="" if report == "report" else f"--studies {report}",
+            studies=f"--studies {report}" if prefix else "",
         message:
             f"Collect the content of the report: {', '.join(shown)}"
         shell:
@@ -62,12 +69,12 @@ for report, shown in REPORTS.items():
 
     rule:
         name:
-            "report" if report == "report" else f"{report}_report"
+            f"{prefix}report"
         input:
             sources=sources("smallsat.report.typesetting"),
             template=project("report/report.typ"),
             parts=TEMPLATES,
-            content=f"report/build/{'content' if report == 'report' else report}.json",
+            content=f"report/build/{report}.json",
             # The page shows the SVG, the PDF takes in the PDF.
             figures=[report_figures(study) for study in shown],
             drawings=[
