@@ -23,7 +23,7 @@ class Study:
     order
         Place in the report; every study has another one.
     title, author, year
-        Of the document; author and year are empty where the document does not name them.
+        How the document is named; author and year are empty where it does not say them.
     subject
         What the study is about, as a heading.
     values, artefacts

@@ -238,7 +238,7 @@ def _erratum(case: Case) -> Outcome | None:
         return None
     value = case.shown
     if case.runs and not isnan(case.printed.value):
-        # Of several runs the one that comes nearest is what the printed value is compared with.
+        # The printed value is compared with the nearest of several runs.
         found = (run["computed"] for run in case.runs)
         value = min(found, key=lambda one: abs(one - case.printed.value))
         if case.printed.matches(value):

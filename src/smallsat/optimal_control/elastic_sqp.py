@@ -101,7 +101,7 @@ class ElasticSqp:
         guess, lower, upper
             (n,).
         tolerance
-            Of the constraints, and of the promised decrease.
+            How far constraints may be violated, and the promised decrease that ends the search.
         iterations
             Largest number of quadratic programs.
         penalty

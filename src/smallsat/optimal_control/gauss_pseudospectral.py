@@ -99,13 +99,13 @@ class Plan:
     Attributes
     ----------
     times
-        Of the points (N,).
+        Times of the points, (N,).
     states, controls, costates
         At the points: (N, n), (N, m), (N, n). A costate is the cost's derivative by the state.
     ends
         States at the ends of the segments, the start included: (segments + 1, n).
     final_time
-        Of the plan.
+        Time at which the plan ends.
     """
 
     times: np.ndarray

@@ -53,7 +53,7 @@ class Solution:
     seconds
         Wall time of the solve alone, without building the problem.
     multipliers
-        Of the constraints (m,), where the solver gives them: the gradient of the objective plus
+        One a constraint, (m,), where the solver gives them: the gradient of the objective plus
         multipliers times that of the constraints vanishes where no bound is active.
     """
 

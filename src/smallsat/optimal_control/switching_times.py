@@ -22,9 +22,9 @@ class Arcs:
     Attributes
     ----------
     controls
-        Of each arc: (arcs, m).
+        Control of each arc, (arcs, m).
     durations
-        Of each arc: (arcs,).
+        Duration of each arc, (arcs,).
     """
 
     controls: np.ndarray

@@ -20,9 +20,9 @@ class Bootstrap:
     resamples
         Number of resamples.
     confidence
-        Of all intervals of one claim together.
+        Probability with which all intervals of one claim hold together.
     seed
-        Of the resampling.
+        Seed of the resampling.
     """
 
     resamples: int

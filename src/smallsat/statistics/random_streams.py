@@ -11,6 +11,6 @@ def stream(seed: int, sample: int) -> np.random.Generator:
     Parameters
     ----------
     seed, sample
-        Of the study and of the sample in it; integers from 0 on.
+        Seed of the study, and number of the sample in it; integers from 0 on.
     """
     return np.random.Generator(np.random.Philox(key=np.array([seed, sample], dtype=np.uint64)))

@@ -84,7 +84,7 @@ def acceleration(x, y, z, mu, radius, table):
     s, t, u = x * inverse, y * inverse, z * inverse
     q = radius * inverse
     squared, step = q * q, u * q
-    # Of the direction's derivatives: towards x, y and z; and the derivative along the radius.
+    # The derivatives by the direction, towards x, y and z, and the one along the radius.
     a1 = a2 = a3 = a4 = 0.0
     # (s + i t) to the powers m and m - 1, and q to the power m.
     real, imaginary, real_before, imaginary_before, power = 1.0, 0.0, 0.0, 0.0, 1.0

@@ -32,9 +32,9 @@ class Parameters:
     Attributes
     ----------
     mean_motion
-        Of the course's origin, rad/s.
+        Mean motion of the course's origin, rad/s.
     ranges
-        Of the generator of courses.
+        Ranges of the generator of courses.
     scatter
         Standard deviation of the start positions in x and in z, m.
     races

@@ -35,11 +35,11 @@ class Parameters:
     panels
         Table 5, shape (6, 7): area, normal, centre of pressure.
     drag_coefficient
-        Of the panels.
+        Drag coefficient of the panels.
     torque, momentum
         Largest torque, N m, and momentum, N m s, of each wheel.
     duration
-        Of the manoeuvre, s.
+        Duration of the manoeuvre, s.
     initial
         Attitude at the start, quaternion.
     targets

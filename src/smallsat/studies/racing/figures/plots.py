@@ -247,7 +247,7 @@ def _side_view(before: np.ndarray, after: np.ndarray, points: np.ndarray) -> np.
         # A straight way is seen from anywhere.
         aside = np.cross(along, np.eye(3)[np.abs(along).argmin()])
     aside /= np.linalg.norm(aside)
-    # Of two equal views the one in which the paths bend upwards.
+    # There are two equal views; in this one the paths bend upwards.
     return np.array([along, aside if (off @ aside).sum() >= 0.0 else -aside])
 
 

@@ -45,13 +45,14 @@ class Settings:
     Attributes
     ----------
     duration_multiple
-        Of the least possible time, for the guess of the duration.
+        Multiple of the least possible time, for the guess of the duration.
     costate_bound
-        Of each initial costate, either way.
+        Bound of each initial costate, either way.
     evaluations
         Largest number of function evaluations, differences included.
     deadzone, constraint_deadzone
-        Of a primer component, in the flight and in the constraints.
+        Size below which a component of the primer counts as none, in the flight and in the
+        constraints.
     final_hamiltonian
         Its target.
     plane
@@ -108,7 +109,7 @@ class Segment:
     violation
         Largest violation of a constraint at the end.
     evaluations
-        Of the functions, differences included.
+        Evaluations of the functions, differences included.
     """
 
     costate: np.ndarray

@@ -49,7 +49,7 @@ class Leg:
     position, velocity
         At the start, (3,).
     centres, normals
-        Of the rings to cross, (l, 3).
+        Centres and normals of the rings to cross, (l, 3).
     end_position, end_velocity
         Where to finish, (3,); of a finish "rest anywhere" only the position is used, as a guess.
     """
@@ -77,7 +77,7 @@ class Plan:
     Attributes
     ----------
     durations
-        Of the segments (m,), s.
+        Durations of the segments, (m,), s.
     starts
         State at the start of each segment (m, 6).
     controls

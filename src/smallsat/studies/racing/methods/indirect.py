@@ -60,7 +60,7 @@ def solve(
     costate, duration
         Guess: the rate of the least time with the state, and the duration, s.
     panels
-        Of the quadrature.
+        Panels of the quadrature.
     """
     length = length_unit(np.array([state[:3], goal.position]))
     time = float(np.sqrt(length / thrust))

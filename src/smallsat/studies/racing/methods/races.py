@@ -45,7 +45,7 @@ SOLUTIONS = (AS_PUBLISHED, GREEDY, INDIRECT, WHOLE, ANYWHERE)
 ALONG_TRACK_VARIANCE = 0.0
 # Where the indirect method fails, it starts anew from a mesh so many times finer.
 FINER = 4
-# Of the least ring speed: below this a solution counts as held by it.
+# Multiple of the least ring speed below which a solution counts as held by it.
 SLOW = 1.01
 REST = np.zeros(3)
 KEY = ["scenario", "cubesat", "solution"]

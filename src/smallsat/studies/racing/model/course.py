@@ -42,7 +42,7 @@ class Course:
     start
         Centre (3,) of the start, m, Hill frame with its origin at the mean of all ring centres.
     centres, normals
-        Of the rings, (l, 3); a CubeSat crosses along the normal.
+        Centres and normals of the rings, (l, 3); a CubeSat crosses along the normal.
     semi_axes
         Semi-major and semi-minor axis as drawn, (l, 2), m; either may be the larger.
     end
@@ -94,7 +94,7 @@ def generate(
     draw
         Source of uniform numbers in [0, 1): one for the number of rings, then five a ring.
     ranges
-        Of everything drawn.
+        Ranges of everything that is drawn.
     rings
         Number of rings, where it is given and not drawn.
     halved

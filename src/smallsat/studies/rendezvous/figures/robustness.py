@@ -14,7 +14,7 @@ from smallsat.drawing.figure import Drawing
 from smallsat.drawing.style import BLACK, BLUE, GREY, ORANGE, VERMILION
 from smallsat.dynamics.units import HOUR, MINUTE
 
-# Of Section 5.1: the range "within 1 sigma", and the bounds that Figure 5.1 dots.
+# The range "within 1 sigma" of Section 5.1, and the bounds that Figure 5.1 dots.
 STATED_PCT, SIGMAS = 7.0, 3.0
 
 

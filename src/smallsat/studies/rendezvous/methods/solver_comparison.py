@@ -55,7 +55,7 @@ def samples(laws: dict[str, Law], starts: np.ndarray, count: int) -> list[Sample
                 for r in map(simulated.record, range(len(starts)))
                 for k in np.flatnonzero(r.phase == phase)
             ]
-            # Of a phase that no manoeuvre comes to there are none.
+            # A phase that no manoeuvre comes to has none.
             chosen = np.unique(np.linspace(0, max(len(steps) - 1, 0), count).astype(int))
             chosen = chosen[: len(steps)]
             for state, time in (steps[k] for k in chosen):

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from smallsat.config import Config
-from smallsat.dynamics.units import HOUR, MINUTE
+from smallsat.dynamics.units import MINUTE
 from smallsat.results import read_table
 from smallsat.studies.rendezvous.monte_carlo.cases import (
     BASELINE,
@@ -25,8 +25,6 @@ from smallsat.studies.rendezvous.monte_carlo.tables import column, totals
 
 QUANTILES = {"low": 0.05, "median": 0.5, "high": 0.95}
 QUANTITIES = {"delta_v": "delta_v_m_s", "time": "time_s"}
-# Of the sample paths in Figure 5.1.
-PATH_S, PATH_STEP_S, PATHS = 12.0 * HOUR, 120.0, 20
 
 
 def variants(section: Config, folder: Path) -> pd.DataFrame:

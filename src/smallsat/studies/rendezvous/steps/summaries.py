@@ -1,12 +1,13 @@
 """What the variants of the manoeuvres change, and what the docking distance decides."""
 
+from smallsat.dynamics.units import HOUR
 from smallsat.step import Step, Tables
 from smallsat.studies.rendezvous.model.actuation_noise import readings_table, sampling
 from smallsat.studies.rendezvous.monte_carlo import summaries
 from smallsat.studies.rendezvous.simulation.disturbances import thrust_noise, thrust_reading
 
-# Of the sample paths in Figure 5.1.
-PATH_S, PATH_STEP_S, PATHS = 12.0 * 3600.0, 120.0, 20
+# Duration, step and number of the sample paths in Figure 5.1.
+PATH_S, PATH_STEP_S, PATHS = 12.0 * HOUR, 120.0, 20
 
 
 def run(step: Step) -> Tables:

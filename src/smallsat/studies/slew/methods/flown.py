@@ -14,7 +14,8 @@ from smallsat.dynamics.environment.torques import gravity_gradient
 from smallsat.dynamics.orbits.kepler_orbits import Elements, perifocal_frame
 from smallsat.studies.slew.methods.guidance_problem import Model
 
-# Of Kepler's equation: six find the root to rounding up to this eccentricity, the others beyond it.
+# Six steps find the root of Kepler's equation to rounding up to this eccentricity, the others
+# beyond it.
 NEWTON_STEPS, NEWTON_STEPS_BEYOND = 6, 20
 MODERATE = 0.7
 

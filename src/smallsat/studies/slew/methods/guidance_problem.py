@@ -240,9 +240,9 @@ class Result:
     plan
         In scaled units.
     solution
-        Of the last stage; its status is that of the whole.
+        Solution of the last stage; its status is that of the whole.
     seconds, iterations
-        Of all stages.
+        Sums over all stages.
     cost
         Integral of |u|, N m s, by the method's quadrature, without smoothing.
     duration

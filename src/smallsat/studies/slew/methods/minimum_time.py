@@ -47,11 +47,11 @@ class LeastTime:
     duration
         By the refined arcs, or by collocation where there are none, s.
     converged, status, residual
-        Of the method that gives the duration.
+        How the method that gives the duration ended.
     momentum_limited
         Whether a wheel is full at some time.
     attitude_miss, rate_miss
-        Of the arcs flown by an independent integrator: rad, and rad/s.
+        Where the arcs end by an independent integrator, beside the target: rad, and rad/s.
     """
 
     starts: pd.DataFrame
@@ -150,7 +150,7 @@ def eigenaxis_time(angle: float, moment: float, torque: float, momentum: float) 
     angle
         rad.
     moment
-        Of inertia about the axis, kg m^2.
+        Moment of inertia about the axis, kg m^2.
     torque, momentum
         Limits of the wheel, N m and N m s.
     """

@@ -46,7 +46,7 @@ class Turn:
     row
         Its summary, a row of ``plans.csv``.
     seconds
-        Of the chosen solve.
+        Seconds that the chosen solve took.
     timed
         Whether they are compared with printed ones.
     starts

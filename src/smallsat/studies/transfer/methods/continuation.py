@@ -224,7 +224,7 @@ def _errors(extremal: MinimumTime) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _fill(rows: np.ndarray, segment: int, by_state: np.ndarray, by_time: np.ndarray) -> None:
-    # Of the first node the costate alone is unknown.
+    # Only the costate of the first node is unknown.
     first = max(0, 6 * segment - 3)
     width = 3 if segment == 0 else 6
     rows[:, first : first + width] = by_state[:, -width:]

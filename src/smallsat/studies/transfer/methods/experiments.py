@@ -75,7 +75,7 @@ class Solved:
     cases
         One row a case; what is not solved has no final time and an infinite residual.
     trajectories
-        Of the cases that were flown.
+        Trajectories of the cases that were flown.
     not_converged
         Cases that no start of ours solved.
     """

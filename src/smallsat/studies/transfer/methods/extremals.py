@@ -55,7 +55,7 @@ def enough_steps(steps: int, problem: TransferProblem, final_time: float) -> int
     Parameters
     ----------
     steps
-        Of the configuration.
+        Steps over the flight that the configuration asks for.
     problem, final_time
         The flight, in canonical units.
     """
@@ -81,9 +81,9 @@ def find_extremals(
     intervals
         Numbers of intervals; 1 for single shooting.
     guess
-        Of the configuration.
+        The configuration's ``guess``.
     steps
-        Of the configuration.
+        Steps over the flight that the configuration asks for.
     """
     try:
         reference: MinimumTime | None = minimum_time(problem)
