@@ -244,12 +244,12 @@ def _simulate(law, start, phases, motion, generator, memory, m, found):
     w, v = first_error(motion, generator)
     state = relative(motion, pair)
     first_estimate(motion, start, state, generator, estimate, covariance)
-    time, step = 0.0, 0
+    time, step, spent = 0.0, 0, 0.0
     for phase in range(phases[0], phases[1] + 1):
         duration, delay = law.sample_times[phase], law.delays[phase]
         memory.remaining[0] = 0
         while True:
-            _pass_limits(found, m, time + duration)
+            _pass_limits(found.passages, m, time + duration, spent)
             if time + duration > law.time_limit:
                 return
             expected[:] = estimate
@@ -270,10 +270,12 @@ def _simulate(law, start, phases, motion, generator, memory, m, found):
             state = relative(motion, pair)
             next_estimate(motion, phase, duration, command, state, generator, estimate, covariance)
             _add_up(found, m, phase, applied, control)
+            spent = _spent(found, m)
             found.end_times[m, phase] = time
             found.ends[m, phase] = state
             if phase == DOCKING:
-                _pass_distances(found, m, port_distance(law, estimate, time), time)
+                distance = port_distance(law, estimate, time)
+                _pass_distances(found.passages, m, distance, time, spent)
             if phase_ended(law, phase, estimate, time):
                 break
     found.docked[m] = True
@@ -317,18 +319,16 @@ def _spent(found, m):
 
 
 @compiled
-def _pass_limits(found, m, end):
+def _pass_limits(passages, m, end, spent):
     """Note the delta-v at each time limit, s, that the step to come would end after."""
-    passages = found.passages
     for i in range(len(passages.limits)):
         if np.isnan(passages.delta_v_at_limits[m, i]) and end > passages.limits[i]:
-            passages.delta_v_at_limits[m, i] = _spent(found, m)
+            passages.delta_v_at_limits[m, i] = spent
 
 
 @compiled
-def _pass_distances(found, m, distance, time):
+def _pass_distances(passages, m, distance, time, spent):
     """Note time and delta-v at each docking distance, m, not less than that from the port."""
-    passages = found.passages
     for i in range(len(passages.distances)):
         if np.isnan(passages.times[m, i]) and distance <= passages.distances[i]:
-            passages.times[m, i], passages.delta_v[m, i] = time, _spent(found, m)
+            passages.times[m, i], passages.delta_v[m, i] = time, spent
