@@ -121,10 +121,10 @@ def next_control(law, phase, state, time, memory, command):
             for k in range(CONTROLS):
                 memory.plan[i, k] = law.control_bounds[phase] * solution.controls[i, k]
         memory.remaining[0] = stages
-    command[:] = 0.0
-    if memory.remaining[0] > 0:
-        command[:] = memory.plan[stages - memory.remaining[0]]
-        memory.remaining[0] -= 1
+    left = memory.remaining[0]
+    for k in range(CONTROLS):
+        command[k] = memory.plan[stages - left, k] if left > 0 else 0.0
+    memory.remaining[0] = max(left - 1, 0)
     return Control(solution.status, solution.iterations, softened, outside)
 
 

@@ -25,6 +25,7 @@ from smallsat.studies.rendezvous.simulation.motion import (
     apply_transition,
     begin,
     coast,
+    copy,
     first_error,
     first_estimate,
     next_error,
@@ -240,7 +241,7 @@ def _simulate(law, start, phases, motion, generator, memory, m, found):
     pair = begin(motion, start)
     estimate, covariance, expected = np.empty(6), np.empty((6, 6)), np.empty(6)
     command, applied = np.zeros(3), np.zeros(3)
-    burn, on_times = np.zeros(3), np.zeros(3)
+    burn, on_times, idle = np.zeros(3), np.zeros(3), np.zeros(3)
     w, v = first_error(motion, generator)
     state = relative(motion, pair)
     first_estimate(motion, start, state, generator, estimate, covariance)
@@ -252,13 +253,12 @@ def _simulate(law, start, phases, motion, generator, memory, m, found):
             _pass_limits(found.passages, m, time + duration, spent)
             if time + duration > law.time_limit:
                 return
-            expected[:] = estimate
+            copy(estimate, expected)
             apply_transition(law.predictions_before[phase], expected)
             control = next_control(law, phase, expected, time, memory, command)
             if found.records.time.shape[1] > 0:
                 _record(found.records, m, step, time, phase, state, command, control)
-            on_times[:] = 0.0
-            coast(motion, pair, law.drifts_before[phase], time, delay, burn, on_times)
+            coast(motion, pair, law.drifts_before[phase], time, delay, burn, idle)
             push(motion, pair, command, w, duration - delay, burn, on_times, applied)
             coast(
                 motion, pair, law.drifts_after[phase], time + delay, duration - delay, burn,
@@ -272,7 +272,7 @@ def _simulate(law, start, phases, motion, generator, memory, m, found):
             _add_up(found, m, phase, applied, control)
             spent = _spent(found, m)
             found.end_times[m, phase] = time
-            found.ends[m, phase] = state
+            copy(state, found.ends[m, phase])
             if phase == DOCKING:
                 distance = port_distance(law, estimate, time)
                 _pass_distances(found.passages, m, distance, time, spent)
@@ -286,8 +286,8 @@ def _record(records, m, step, time, phase, state, command, control):
     """Fill the entries of one step in `Steps`."""
     records.time[m, step] = time
     records.phase[m, step] = phase
-    records.state[m, step] = state
-    records.impulse[m, step] = command
+    copy(state, records.state[m, step])
+    copy(command, records.impulse[m, step])
     records.status[m, step] = control.status
     records.iterations[m, step] = control.iterations
     records.softened[m, step] = control.softened

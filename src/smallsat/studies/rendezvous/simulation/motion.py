@@ -74,11 +74,18 @@ class NonlinearMotion(NamedTuple):
 
 
 @compiled
+def copy(source, target):
+    """Copy a row of numbers into another; in compiled code this is far smaller than a slice."""
+    for k in range(len(source)):
+        target[k] = source[k]
+
+
+@compiled
 def begin(motion, start):
     """Return the pair of states (2, 6) for a relative state (6,)."""
     if motion is None:
         pair = np.zeros((2, 6))
-        pair[1] = start
+        copy(start, pair[1])
         return pair
     return pair_from_relative(motion.target, start)
 
@@ -133,15 +140,13 @@ def push(motion, pair, command, error, longest, burn, on_times, applied):
         Filled, (3,) each: acceleration while the thrusters burn, m/s^2; how long each burns from
         now, s; the velocity change that comes of it, m/s.
     """
-    on_times[:] = 0.0
+    for k in range(3):
+        on_times[k], applied[k] = 0.0, command[k]
     if motion is None:
-        applied[:] = command
         for k in range(3):
             pair[1, 3 + k] += applied[k]
     else:
-        if motion.actuation == COMMANDED:
-            applied[:] = command
-        else:
+        if motion.actuation != COMMANDED:
             pulse_on_times(command, motion.mass, motion.force, motion.minimum_on_time, on_times)
             limited = min(max(error, ERROR_RANGE[0]), ERROR_RANGE[1])
             thrust_acceleration(command, motion.mass, (1.0 + limited) * motion.force, burn)
@@ -151,11 +156,11 @@ def push(motion, pair, command, error, longest, burn, on_times, applied):
             for k in range(3):
                 applied[k] = burn[k] * min(on_times[k], longest)
         else:
-            on_times[:] = 0.0
             state = relative_state(pair)
             for k in range(3):
                 state[3 + k] += applied[k]
-            pair[:] = pair_from_relative(pair[0], state)
+                on_times[k] = 0.0
+            copy(pair_from_relative(pair[0], state)[1], pair[1])
 
 
 @compiled
@@ -186,9 +191,9 @@ def first_estimate(motion, start, state, generator, estimate, covariance):
     ``start`` is measured; ``state`` is the same but for the rounding of inertial positions.
     """
     if motion is None or not motion.measured:
-        estimate[:] = state
+        copy(state, estimate)
     else:
-        estimate[:] = _measured(motion, start, generator)
+        copy(_measured(motion, start, generator), estimate)
         navigation_filter.begin(motion.filter_model, covariance)
 
 
@@ -199,9 +204,9 @@ def next_estimate(motion, phase, duration, command, state, generator, estimate, 
     ``state`` is the true relative state then, ``duration`` the step's length, s.
     """
     if motion is None or not motion.measured:
-        estimate[:] = state
+        copy(state, estimate)
     elif not motion.filtered:
-        estimate[:] = _measured(motion, state, generator)
+        copy(_measured(motion, state, generator), estimate)
     else:
         measured = _measured(motion, state, generator)
         navigation_filter.predict(
