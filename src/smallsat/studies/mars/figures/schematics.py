@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
 from matplotlib.patches import FancyBboxPatch, Rectangle, Wedge
 from matplotlib.patheffects import withStroke
 from matplotlib.pyplot import figure as new_figure
@@ -15,12 +14,11 @@ from matplotlib.pyplot import subplots
 from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
+from smallsat.drawing.figure import Drawing
 from smallsat.dynamics.orbits.circular_orbits import CircularOrbit, orbit_frame, position
 from smallsat.dynamics.units import KM
 from smallsat.studies.mars.figures.scenes import BODY_COLOURS, DAY_COLOUR, NIGHT_COLOUR, view
 from smallsat.studies.mars.parameters import Parameters
-
-Drawing = tuple[Figure, pd.DataFrame]
 
 
 def mission_geometry(given: Parameters) -> Drawing:

@@ -10,11 +10,11 @@ from matplotlib.pyplot import figure as new_figure
 from matplotlib.pyplot import subplots
 from mpl_toolkits.mplot3d import Axes3D
 
+from smallsat.drawing.figure import Drawing
 from smallsat.dynamics.attitude.quaternions import quaternion_to_dcm
 from smallsat.studies.slew.model.simulation import angles_deg, usage_pct
 from smallsat.studies.slew.parameters import Parameters
 
-Drawing = tuple[Figure, pd.DataFrame]
 AXES = "xyz"
 QUATERNION = ["q_1", "q_2", "q_3", "q_4"]
 CONTROL_STYLES = {"open loop": "C0--", "closed loop on the plan": "C1-", "eigenaxis law": "C2:"}

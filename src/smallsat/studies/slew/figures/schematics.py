@@ -2,7 +2,6 @@
 
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
 from matplotlib.patches import FancyBboxPatch
 from matplotlib.patheffects import withStroke
 from matplotlib.pyplot import figure as new_figure
@@ -11,9 +10,9 @@ from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from smallsat.config import Config
+from smallsat.drawing.figure import Drawing
 from smallsat.studies.slew.parameters import panels
 
-Drawing = tuple[Figure, pd.DataFrame]
 Boxes = dict[str, tuple[float, float, str]]
 Arrows = list[tuple[str, str, str]]
 WIDTH, HEIGHT = 2.5, 1.0
