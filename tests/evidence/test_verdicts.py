@@ -250,3 +250,8 @@ def test_a_solve_that_failed_is_no_result():
     for rule in ({"unreproducible": "the guess"}, {"tolerance": 9.0}, {"interval": "a seed"}):
         outcome = verdict(failed, rule=rule)
         assert (outcome.verdict, outcome.reason) == ("mismatch", failed.note)
+
+
+def test_a_verdict_says_of_which_document_and_each_thing_once():
+    assert {"id", "document", "printed", "computed", "unit"} <= set(VERDICT_COLUMNS)
+    assert len(set(VERDICT_COLUMNS)) == len(VERDICT_COLUMNS)

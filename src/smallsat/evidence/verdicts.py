@@ -10,7 +10,6 @@ import pandas as pd
 from smallsat.config import Config
 from smallsat.errors import InputError
 from smallsat.evidence.bindings import agrees, binding_name, bound_value
-from smallsat.evidence.ledger import VALUE_COLUMNS
 from smallsat.evidence.patterns import match_entries
 from smallsat.evidence.printed import LOST, Printed, parse_printed
 
@@ -25,7 +24,8 @@ VERDICTS = (
 )
 PENDING = "pending"
 FOUND = ("difference", "tolerance", "verdict", "reason")
-VERDICT_COLUMNS = (*VALUE_COLUMNS[:7], "computed", "unit", *FOUND)
+NAMED = ("id", "document", "locator", "quantity", "case", "component")
+VERDICT_COLUMNS = (*NAMED, "printed", "computed", "unit", *FOUND)
 TEXT_COLUMNS = ("case", "component", "printed", "unit")
 # Kinds of rules; each rule is of one of them.
 RULE_KINDS = (
