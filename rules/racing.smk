@@ -96,9 +96,7 @@ step(
 JUDGED["racing"] = [
     "observations.csv",
     "races.csv",
-    "rings.csv",
     "random-courses.csv",
-    "start-positions.csv",
     "days-as-seeds.csv",
     "variants.csv",
     "meshes.csv",
@@ -106,11 +104,10 @@ JUDGED["racing"] = [
     "thrust-sweep.csv",
     "random-positions.csv",
     "dynamic-programming.csv",
-    *[f"course-{scenario}.csv" for scenario in SCENARIOS],
+    "course-scenario-1.csv",
     *[
-        f"{kind}-{scenario}-{table}"
+        f"{kind}-scenario-1-{table}"
         for kind in ("as-published", "optima")
-        for scenario in SCENARIOS
-        for table in RACING_PARTS
+        for table in ("segments.csv", "trajectories.parquet")
     ],
 ]

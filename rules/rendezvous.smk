@@ -133,8 +133,10 @@ step(
     reads=[
         "phases.csv",
         "flights.parquet",
-        "studies/initial-states.parquet",
-        *GROUP_TABLES,
+        "studies/rendezvous-sweep.parquet",
+        "studies/approach-sweep.parquet",
+        "studies/docking-sweep.parquet",
+        "studies/robustness.parquet",
     ],
     published=["values.csv"],
     makes=["observations.csv", "not-converged.csv"],
@@ -142,10 +144,15 @@ step(
 
 JUDGED["rendezvous"] = [
     "observations.csv",
-    *FLIGHTS,
-    *INFERRED,
-    "solvers.csv",
+    "flights.parquet",
+    "paths.parquet",
+    "truth.csv",
+    "inference.parquet",
+    "residuals.csv",
+    "readings.csv",
+    "ensemble.csv",
+    "lp-variants.csv",
     "constraints.csv",
     "studies/initial-states.parquet",
-    *GROUP_TABLES,
+    *[f"studies/{group}.parquet" for group in GROUPS if group not in ("weights", "delay")],
 ]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from smallsat.results import read_table
+from smallsat.results import read_table, write_table
 from smallsat.studies.rendezvous.evidence.case_tables import TOTAL
 from smallsat.studies.rendezvous.evidence.observations import case_cells, observations, undocked
 from smallsat.studies.rendezvous.figures import cases as plots
@@ -32,7 +32,8 @@ def section(config):
 @pytest.fixture(scope="module")
 def results(section, tmp_path_factory):
     folder = tmp_path_factory.mktemp("undocked")
-    simulate_cases(section, folder)
+    for name, table in simulate_cases(section).items():
+        write_table(table, folder / name)
     return folder
 
 

@@ -5,7 +5,6 @@
 """
 
 import json
-import re
 import shlex
 import subprocess
 from dataclasses import dataclass, field
@@ -35,9 +34,10 @@ def words_of(command):
     return tuple(shlex.split(command.partition(" > ")[0].partition(" | ")[0]))
 
 
-def source(name):
-    """The source file of a compiled one."""
-    return re.sub(r"__pycache__/(\w+)\.cpython-\d+\.pyc$", r"\1.py", name)
+def source(root, name):
+    """The file of a module that was imported, or of a package."""
+    package = name.removesuffix(".py") + "/__init__.py"
+    return package if name.startswith("src/") and (root / package).exists() else name
 
 
 def projected(root, run, names):
@@ -72,7 +72,7 @@ def jobs(root, tested_run):
         inputs = projected(root, tested_run, row["input-file(s)"].split(","))
         job = found.setdefault(words_of(row["shellcmd"]), Job(row["rule"], inputs))
         job.outputs |= projected(root, tested_run, [row["output_file"]])
-    read_records(records, found)
+    read_records(root, records, found)
     return list(found.items())
 
 
@@ -85,18 +85,19 @@ def run_clean(command, root, more):
     )
 
 
-def read_records(folder, jobs):
+def read_records(root, folder, jobs):
     """Give each job what its last process opened, and the kernels that this one started."""
     processes = {}
     for path in sorted(folder.glob("*.txt")):
-        head, *names = path.read_text().splitlines()
+        head, *lines = path.read_text().splitlines()
+        names = {source(root, line) for line in lines}
         process = json.loads(head)
         words = ("python", *process["argv"][1:])
         if words in jobs:
-            jobs[words].opened = set(names)
+            jobs[words].opened = names
             processes[process["pid"]] = jobs[words]
         elif process["parent"] in processes:
-            processes[process["parent"]].opened |= set(names)
+            processes[process["parent"]].opened |= names
 
 
 def test_every_job_was_seen(jobs):
@@ -112,7 +113,7 @@ def test_what_a_job_opens_is_declared(jobs):
         beside = {name.rpartition("/")[0] for name in job.outputs}
         undeclared = {
             name
-            for name in map(source, job.opened or ())
+            for name in job.opened or ()
             if name not in job.inputs | job.outputs
             # A table is written beside its place and then moved there.
             and not (name.endswith(".partial") and name.rpartition("/")[0] in beside)
@@ -129,6 +130,6 @@ def test_what_is_declared_is_read(jobs):
         if job.opened is None or " ".join(words[2:4]) in UNSEEN:
             continue
         data = {name for name in job.inputs if name.startswith(("data/", RUN))}
-        if unread := data - {source(name) for name in job.opened}:
+        if unread := data - job.opened:
             wrong[job.rule] = sorted(unread)
     assert wrong == {}

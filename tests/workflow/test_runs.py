@@ -35,7 +35,7 @@ def test_one_figure(built):
     assert made == sorted(
         f"fig-{n}.{suffix}" for n in ("05", "06") for suffix in ("csv", "pdf", "png", "svg")
     )
-    assert (built.folder / "data/results/transfer/notebooks/indirect-n0-k1.ipynb").exists()
+    assert (built.folder / "data/results/transfer/notebooks/figures-indirect-n0-k1.ipynb").exists()
     assert not (built.folder / "data/results/transfer/converged.csv").exists()
 
 
