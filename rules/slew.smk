@@ -54,7 +54,6 @@ step(
         "orbit.csv",
         "environment.csv",
         "minimum-times.csv",
-        "plans.csv",
         "replays.parquet",
         "plan-seconds.csv",
         "minimum-times-not-converged.csv",
