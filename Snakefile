@@ -14,6 +14,7 @@ from pathlib import Path
 from smallsat.catalogue import read_catalogue
 from smallsat.errors import InputError
 from smallsat.evidence.ledger import read_published
+from smallsat.step import Shard
 from smallsat.strict_yaml import read_yaml
 from smallsat.workflow.figures import drawn, read_runs
 from smallsat.workflow.isolation import isolate

@@ -6,7 +6,7 @@ def project(path):
     return os.path.relpath(ROOT / path)
 
 
-def published(study, *names):
+def published_files(study, *names):
     """Files among the published values of a study."""
     return [project(f"data/published/{study}/{name}") for name in names]
 
@@ -59,7 +59,19 @@ def report_figures(study):
 
 
 def step(
-    study, name, makes, *, runs="", reads=(), clock=(), part="", shard="", config=None, **more
+    study,
+    name,
+    makes,
+    *,
+    runs="",
+    reads=(),
+    published=(),
+    files=(),
+    clock=(),
+    part="",
+    shard="",
+    config=None,
+    priority=0,
 ):
     """A computing step of a study becomes a rule.
 
@@ -78,12 +90,14 @@ def step(
         Which part of the step, and which share of it, such as `1-of-4`.
     config
         What it depends on; else the study's whole section.
-    more
-        `published`: names of published files that it reads; `files`: other files; `priority`.
+    published, files
+        Published files of the study that it reads, and files of a person's own.
+    priority
+        Steps of a higher one start first.
     """
     implementation = f"smallsat.studies.{study}.steps.{runs or name}"
     words = [
-        *[f"--published {project(f'data/published/{study}')}"] * bool(more.get("published")),
+        *[f"--published {project(f'data/published/{study}')}"] * bool(published),
         *[f"--part {part}"] * bool(part),
         *[f"--shard {shard}"] * bool(shard),
     ]
@@ -94,8 +108,8 @@ def step(
             f"{study}_{name}".replace("-", "_")
         input:
             sources=sources("smallsat.workflow.run_step", implementation),
-            published=published(study, *more.get("published", ())),
-            files=more.get("files", []),
+            published=published_files(study, *published),
+            files=list(files),
             results=results(study, *reads),
         output:
             results(study, *makes, *clock),
@@ -103,7 +117,7 @@ def step(
             f"logs/{study}/{name}.log",
         benchmark:
             f"logs/{study}/{name}.benchmark.tsv"
-        priority: more.get("priority", 0)
+        priority: priority
         params:
             study=study,
             step=runs or name,

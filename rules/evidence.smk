@@ -3,7 +3,7 @@
 SUMMARY = (
     "python -m smallsat summary {input.verdicts} --published {params.published} {params.what_if}"
 )
-LEDGERS = [file for study in STUDIES for file in published(study, "study.yaml", "values.csv")]
+LEDGERS = [file for study in STUDIES for file in published_files(study, "study.yaml", "values.csv")]
 WHAT_IF = "" if RUN_FOLDER == "." else "--what-if"
 
 
@@ -13,7 +13,7 @@ for study in STUDIES:
         name:
             f"{study}_verdicts"
         input:
-            published=published(
+            published=published_files(
                 study,
                 "values.csv",
                 "rules.yaml",
@@ -51,7 +51,7 @@ for study in STUDIES:
             sources=sources(
                 "smallsat.workflow.notebook", *notebook_modules(ROOT / "notebooks/tables.ipynb")
             ),
-            artefacts=published(study, "artefacts.csv"),
+            artefacts=published_files(study, "artefacts.csv"),
             verdicts=results(study, "verdicts.csv"),
         output:
             targets(study, "table"),

@@ -14,7 +14,7 @@ for study in STUDIES:
                     "smallsat.workflow.notebook",
                     *notebook_modules(ROOT / f"notebooks/{study}/{run.notebook}.ipynb"),
                 ),
-                published=published(study, "values.csv") if run.published else [],
+                published=published_files(study, "values.csv") if run.published else [],
                 results=results(study, *run.reads),
             output:
                 figure_files(*run.stems),

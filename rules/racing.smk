@@ -3,7 +3,7 @@ from smallsat.studies.racing.parameters import course_files
 
 SCENARIOS = list(CONFIG["racing"]["scenarios"])
 RACING_PARTS = ["races.csv", "rings.csv", "segments.csv", "trajectories.parquet"]
-RANDOM_SHARDS = [f"{number}-of-2" for number in (1, 2)]
+RANDOM_SHARDS = Shard.all(2)
 # Courses of the user's own, read by every step with the parameters.
 COURSES = {"files": course_files(CONFIG)}
 

@@ -26,10 +26,7 @@ MANOEUVRES = {
         if key not in ("bootstrap", "shards")
     }
 }
-MANOEUVRE_SHARDS = [
-    f"{number}-of-{RENDEZVOUS['studies']['shards']}"
-    for number in range(1, RENDEZVOUS["studies"]["shards"] + 1)
-]
+MANOEUVRE_SHARDS = Shard.all(RENDEZVOUS["studies"]["shards"])
 # Groups of manoeuvres, and where each begins: at an initial state, or where the baseline ended the
 # phase before.
 GROUPS = {
