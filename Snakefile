@@ -5,13 +5,13 @@
 #   snakemake check                         verdicts only, with a summary; fails where one is wrong
 #   snakemake animations                    the films
 #   snakemake --configfile my.yaml          a what-if run, in runs/<name>/
-import json
 import os
 import re
 import sys
 from pathlib import Path
 
-from smallsat.catalogue import read_catalogue
+from smallsat.catalogue import read_catalogue, untyped
+from smallsat.config import as_json
 from smallsat.errors import InputError
 from smallsat.evidence.ledger import read_published
 from smallsat.step import Shard
@@ -36,7 +36,7 @@ isolate(ROOT / ".cache")
 try:
     given = workflow.config_settings
     run = read_run(ROOT, given.configfiles, given.config_args or [])
-    CONFIG, RUN_FOLDER = run.config, run.folder
+    CONFIG, DEFAULT, RUN_FOLDER = run.config, run.default, run.folder
     catalogue = read_catalogue(PUBLISHED)
     STUDIES = [study.name for study in catalogue]
     ARTEFACTS = {study.name: read_published(PUBLISHED, study)[1] for study in catalogue}

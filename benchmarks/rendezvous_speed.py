@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from smallsat.config import read_yaml
+from smallsat.config import default_config
 from smallsat.statistics.random_streams import stream
 from smallsat.studies.rendezvous.methods import qp_solvers
 from smallsat.studies.rendezvous.monte_carlo.initial_states import (
@@ -29,7 +29,6 @@ sys.path.insert(0, str(ROOT / "tests/rendezvous"))
 
 import reference_loop  # noqa: E402
 
-CONFIG = ROOT / "config/default/rendezvous.yaml"
 MANOEUVRES = 200
 NOISY = 40
 DOUBLINGS = (125, 250, 500)
@@ -40,7 +39,7 @@ OSQP_TOLERANCE = 1e-4
 
 def measure() -> dict[str, float]:
     """Manoeuvres a second of both loops, microseconds a program, and their ratios."""
-    section = read_yaml(CONFIG)["rendezvous"]
+    section = default_config(ROOT).rendezvous
     given = law(section)
     states = initial_states(
         max(DOUBLINGS), SEED, Distribution(150.0, 2500.0, 0.5, IN_PLANE), given.mean_motion

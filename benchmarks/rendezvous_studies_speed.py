@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from smallsat.config import read_yaml
+from smallsat.config import default_config
 from smallsat.statistics.random_streams import stream
 from smallsat.studies.rendezvous.model.columns import STATE
 from smallsat.studies.rendezvous.monte_carlo.cases import base
@@ -41,9 +41,9 @@ GROUPS = (
 
 def measure() -> dict[str, float]:
     """Processor seconds of the baseline from ever more states, and how linear they are."""
-    section = read_yaml(ROOT / "config/default/rendezvous.yaml")["rendezvous"]
+    section = default_config(ROOT).rendezvous
     law = base(section)
-    states = states_table(section, max(SAMPLES), section["studies"]["seed"])[STATE].to_numpy()
+    states = states_table(section, max(SAMPLES), section.studies.seed)[STATE].to_numpy()
     simulate([law], states[:1])  # compiles
     found, steps = {}, 0
     for count in SAMPLES:

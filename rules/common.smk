@@ -21,11 +21,6 @@ def sources(command, *modules):
     return [os.path.relpath(path) for path in source_files("smallsat.__main__", command, *modules)]
 
 
-def as_json(value):
-    """A parameter for a command line; sorted, so that equal values are equal text."""
-    return json.dumps(value, sort_keys=True)
-
-
 def figure_files(*stems):
     """The files of figures: three formats and the data drawn."""
     return [f"{stem}.{suffix}" for stem in stems for suffix in ("svg", "pdf", "png", "csv")]
@@ -70,7 +65,7 @@ def step(
     clock=(),
     part="",
     shard="",
-    config=None,
+    takes=None,
     priority=0,
 ):
     """A computing step of a study becomes a rule.
@@ -88,8 +83,9 @@ def step(
         Results of the study that it reads.
     part, shard
         Which part of the step, and which share of it, such as `1-of-4`.
-    config
-        What it depends on; else the study's whole section.
+    takes
+        Type of the part of the study's section that it depends on; else the whole section. A
+        change of anything else does not rerun it.
     published, files
         Published files of the study that it reads, and files of a person's own.
     priority
@@ -122,7 +118,7 @@ def step(
             study=study,
             step=runs or name,
             words=" ".join(words),
-            config=as_json(config or CONFIG[study]),
+            config=as_json(CONFIG[study].of(takes) if takes else CONFIG[study]),
         message:
             f"{study}: {name}"
         shell:

@@ -23,8 +23,12 @@ for study in STUDIES:
                 # Some proofs compare captions.
                 "artefacts.csv",
             ),
-            # The judge loads a study's bindings, proofs and predicates by name.
-            sources=sources("smallsat.evidence.judge", *named_modules(PUBLISHED / study)),
+            # The judge loads a study's configuration, bindings, proofs and predicates by name.
+            sources=sources(
+                "smallsat.evidence.judge",
+                f"smallsat.studies.{study}.configuration",
+                *named_modules(PUBLISHED / study),
+            ),
             results=results(study, *JUDGED[study]),
         output:
             results(study, "errata.csv", "claims.csv", "verdicts.csv"),
@@ -35,7 +39,7 @@ for study in STUDIES:
         params:
             study=study,
             published=lambda w, input: os.path.dirname(input.published[0]),
-            config=as_json({study: CONFIG[study]}),
+            config=as_json(CONFIG[study]),
         message:
             f"{study}: prove the errata, judge values and claims"
         shell:

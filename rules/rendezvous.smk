@@ -1,32 +1,7 @@
 # Rendezvous: three-phase model predictive control, its undisclosed parameters and its manoeuvres.
+from smallsat.studies.rendezvous.configuration import Cases, MonteCarlo
 
-RENDEZVOUS = CONFIG["rendezvous"]
-# What the cases and the inference depend on; other keys of the section do not rerun them.
-CASES = {
-    key: RENDEZVOUS[key]
-    for key in (
-        "spacecraft",
-        "start",
-        "port_m",
-        "cone_faces",
-        "target_eccentricity",
-        "phases",
-        "inferred",
-        "inference",
-        "truth",
-    )
-}
-# What the manoeuvres depend on: a change of anything else flies none of them anew.
-MANOEUVRES = {
-    key: RENDEZVOUS[key] for key in ("spacecraft", "start", "port_m", "phases", "inferred", "truth")
-} | {
-    "studies": {
-        key: value
-        for key, value in RENDEZVOUS["studies"].items()
-        if key not in ("bootstrap", "shards")
-    }
-}
-MANOEUVRE_SHARDS = Shard.all(RENDEZVOUS["studies"]["shards"])
+MANOEUVRE_SHARDS = Shard.all(CONFIG["rendezvous"].studies.shards)
 # Groups of manoeuvres, and where each begins: at an initial state, or where the baseline ended the
 # phase before.
 GROUPS = {
@@ -52,7 +27,7 @@ INFERRED = [
     "lp-variants.csv",
 ]
 
-step("rendezvous", "flights", makes=FLIGHTS, config=CASES)
+step("rendezvous", "flights", makes=FLIGHTS, takes=Cases)
 
 # One search for each side of the R-bar, so that two cores have one each.
 for side in ("above", "below"):
@@ -63,7 +38,7 @@ for side in ("above", "below"):
         part=side,
         makes=[f"search-{side}.parquet"],
         published=["values.csv"],
-        config=CASES,
+        takes=Cases,
     )
 
 step(
@@ -72,7 +47,7 @@ step(
     reads=["search-above.parquet", "search-below.parquet"],
     makes=INFERRED,
     published=["values.csv"],
-    config=CASES,
+    takes=Cases,
 )
 step("rendezvous", "solvers", makes=["solvers.csv"], clock=["solver-seconds.csv"])
 step("rendezvous", "constraints", makes=["constraints.csv"])
@@ -80,7 +55,7 @@ step(
     "rendezvous",
     "initial_states",
     makes=["studies/initial-states.parquet", "studies/disturbed-states.parquet"],
-    config=MANOEUVRES,
+    takes=MonteCarlo,
 )
 
 for group, starts in GROUPS.items():
@@ -93,7 +68,7 @@ for group, starts in GROUPS.items():
             shard=shard,
             reads=[starts],
             makes=[f"studies/shards/{group}-{shard}.parquet"],
-            config=MANOEUVRES,
+            takes=MonteCarlo,
         )
     step(
         "rendezvous",
@@ -104,7 +79,7 @@ for group, starts in GROUPS.items():
         shard=MANOEUVRE_SHARDS[-1],
         reads=[f"studies/shards/{group}-{shard}.parquet" for shard in MANOEUVRE_SHARDS],
         makes=[f"studies/{group}.parquet"],
-        config=MANOEUVRES,
+        takes=MonteCarlo,
     )
 
 step(
@@ -122,7 +97,7 @@ step(
             "thrust-errors",
         )
     ],
-    config=MANOEUVRES,
+    takes=MonteCarlo,
 )
 step(
     "rendezvous",

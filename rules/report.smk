@@ -25,9 +25,6 @@ for report, shown in REPORTS.items():
                 for path in sorted((PUBLISHED / study).glob("*"))
                 if path.name in ("artefacts.csv", "extras.yaml")
             ],
-            config=[
-                project(path.relative_to(ROOT)) for path in sorted(ROOT.glob("config/*/*.yaml"))
-            ],
             # Whether a study has a chapter stands in the content.
             chapters=[
                 project(path.relative_to(ROOT))
@@ -57,15 +54,17 @@ for report, shown in REPORTS.items():
         benchmark:
             f"logs/report/{report}-content.benchmark.tsv"
         params:
-            project=lambda w, input: Path(input.config[0]).parents[2],
+            project=project("."),
             config=as_json(CONFIG),
+            default=as_json(DEFAULT),
             left_out=as_json(LEFT_OUT),
             studies=f"--studies {report}" if prefix else "",
         message:
             f"Collect the content of the report: {', '.join(shown)}"
         shell:
             "python -m smallsat content --project {params.project} --config {params.config:q}"
-            " --left-out {params.left_out:q} {params.studies} --output {output} > {log} 2>&1"
+            " --default {params.default:q} --left-out {params.left_out:q} {params.studies}"
+            " --output {output} > {log} 2>&1"
 
     rule:
         name:

@@ -1,6 +1,6 @@
 # Transfer: a low-thrust orbit transfer in minimum time, by a grid of methods.
 
-INTERVALS = [1, *CONFIG["transfer"]["intervals"]]
+INTERVALS = [1, *CONFIG["transfer"].intervals]
 TRANSFER_SHARDS = [f"as-published-k{intervals}" for intervals in INTERVALS]
 
 for experiment in ("indirect", "converged", "continuous"):

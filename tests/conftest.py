@@ -4,9 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from smallsat.config import default_config
+from smallsat.config import Config, default_config
 from smallsat.evidence.grounds import Grounds
 from smallsat.evidence.ledger import Ledger, read_artefacts, read_ledger
+from smallsat.quantities import Part
 from smallsat.workflow.isolation import isolate
 
 ROOT = Path(__file__).parents[1]
@@ -20,8 +21,21 @@ def root() -> Path:
 
 
 @pytest.fixture(scope="session")
-def config() -> dict:
+def config() -> Config:
     return default_config(ROOT)
+
+
+@pytest.fixture(scope="session")
+def changed():
+    """A part of the configuration with another value at a dotted key, one not allowed even."""
+
+    def of(part: Part, key: str, value):
+        name, _, below = key.replace("-", "_").partition(".")
+        assert name in type(part).model_fields
+        update = {name: of(part[name], below, value) if below else value}
+        return part.model_copy(update=update)
+
+    return of
 
 
 @pytest.fixture(scope="session")
@@ -40,12 +54,12 @@ def ledger(root):
 
 @pytest.fixture(scope="session")
 def grounds(root, ledger):
-    """The grounds of a study for a configuration and results, with other literals at some ids."""
+    """The grounds of a study for its section and results, with other literals at some ids."""
 
-    def of(study: str, config: dict, results: Path, printed: dict[str, str] | None = None):
+    def of(study: str, section: Part, results: Path, printed: dict[str, str] | None = None):
         artefacts = read_artefacts(root / f"data/published/{study}/artefacts.csv")
         captions = {row["id"]: row["caption"] for row in artefacts}
-        return Grounds(config, results, ledger(study, printed), captions)
+        return Grounds(section, results, ledger(study, printed), captions)
 
     return of
 

@@ -7,6 +7,7 @@ from types import ModuleType
 from typing import Any
 
 from smallsat.errors import InputError
+from smallsat.quantities import Part
 from smallsat.strict_yaml import read_yaml
 
 NUMBERS = ("order", "values", "artefacts")
@@ -70,6 +71,20 @@ def study_module(study: str, name: str) -> ModuleType | None:
     folder = Path(__file__).parent / "studies" / study
     path = folder.joinpath(*name.split(".")).with_suffix(".py")
     return import_module(f"smallsat.studies.{study}.{name}") if path.exists() else None
+
+
+def section_type(study: str) -> type[Part]:
+    """The type of a study's section of the configuration."""
+    module = study_module(study, "configuration")
+    if module is None:
+        raise InputError(f"src/smallsat/studies/{study}/configuration.py: no such file; write it")
+    return module.Configuration
+
+
+def untyped(section: Any) -> Any:
+    """Transition: the plain form of a section whose study does not take the typed one yet."""
+    study = type(section).__module__.split(".")[2]
+    return section if study == "rendezvous" else section.model_dump(mode="json")
 
 
 def _study(path: Path) -> Study:

@@ -9,12 +9,13 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Generic
 
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.errors import InputError
+from smallsat.quantities import Section
 
 Tables = Mapping[str, pd.DataFrame]
 
@@ -54,13 +55,14 @@ class Shard:
 
 
 @dataclass(frozen=True)
-class Step:
+class Step(Generic[Section]):
     """What a step is given.
 
     Attributes
     ----------
     section
-        The study's section of the configuration, or the part of it that the step depends on.
+        The study's section of the configuration, or what the step depends on of it; the type is
+        that of the argument of ``run``.
     results
         Folder of the study's results, for the tables of earlier steps.
     published
@@ -71,7 +73,7 @@ class Step:
         Which share of a step that is shared out; else everything.
     """
 
-    section: Config
+    section: Section
     results: Path
     published: Path
     part: str = ""

@@ -9,14 +9,18 @@ import pytest
 
 from smallsat.errors import InputError
 from smallsat.evidence.bindings import agrees, binding_name, bound_value
+from smallsat.quantities import Part
 
-CONFIG = {
-    "mars": {
-        "step_s": 1.0,
-        "rates": [1.0, 1.75, -2.2],
-        "inertia": [[10.0, 0.0, 0.0], [0.0, 5.0, 0.0], [0.0, 0.0, 7.5]],
-    }
-}
+
+class Made(Part):
+    """A section of a study."""
+
+    step_s: float = 1.0
+    rates: tuple[float, ...] = (1.0, 1.75, -2.2)
+    inertia: tuple[tuple[float, ...], ...] = ((10.0, 0.0, 0.0), (0.0, 5.0, 0.0), (0.0, 0.0, 7.5))
+
+
+SECTION = Made()
 
 
 def row(printed="1", component="", case=""):
@@ -38,16 +42,16 @@ def row(printed="1", component="", case=""):
     ],
 )
 def test_the_component_picks_the_entry(key, component, value):
-    assert bound_value(row(component=component), {"config": key}, CONFIG) == value
+    assert bound_value(row(component=component), {"config": key}, SECTION) == value
 
 
 def test_the_case_picks_the_entry_where_there_is_no_component():
-    assert bound_value(row(case="item 3"), {"config": "mars.rates"}, CONFIG) == -2.2
+    assert bound_value(row(case="item 3"), {"config": "mars.rates"}, SECTION) == -2.2
 
 
 def test_a_constant_of_the_code_can_be_fed():
     binding = {"constant": "math:pi"}
-    assert bound_value(row(), binding, CONFIG) == pytest.approx(3.14159265)
+    assert bound_value(row(), binding, SECTION) == pytest.approx(3.14159265)
     assert (
         binding_name({"constant": "smallsat.studies.mars.model.modes:LIMIT"})
         == "mars.model.modes.LIMIT"
@@ -57,10 +61,10 @@ def test_a_constant_of_the_code_can_be_fed():
 
 def test_a_value_can_be_derived_from_the_configuration(monkeypatch):
     module = types.ModuleType("derivations")
-    module.half_step = lambda config: {"half": config["mars"]["step_s"] / 2}
+    module.half_step = lambda section: {"half": section.step_s / 2}
     monkeypatch.setitem(sys.modules, "derivations", module)
     binding = {"derived": "derivations:half_step", "entry": "half"}
-    assert bound_value(row(), binding, CONFIG) == 0.5
+    assert bound_value(row(), binding, SECTION) == 0.5
     assert binding_name(binding) == "derivations.half_step"
 
 
@@ -77,7 +81,7 @@ def test_a_value_can_be_derived_from_the_configuration(monkeypatch):
 )
 def test_a_binding_that_leads_nowhere_is_named(binding, component, message):
     with pytest.raises(InputError, match=re.escape(message)):
-        bound_value(row(component=component), binding, CONFIG)
+        bound_value(row(component=component), binding, SECTION)
 
 
 @pytest.mark.parametrize(
@@ -86,7 +90,7 @@ def test_a_binding_that_leads_nowhere_is_named(binding, component, message):
 def test_an_entry_beyond_the_list_feeds_nothing(key, component):
     """A what-if run may have a shorter list: the printed entry then agrees with no value."""
     binding = {"config": key}
-    value = bound_value(row("1.75", component=component), binding, CONFIG)
+    value = bound_value(row("1.75", component=component), binding, SECTION)
     assert isnan(value)
     assert not agrees(row("1.75", component=component), binding, value)
 

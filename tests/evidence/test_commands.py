@@ -1,6 +1,5 @@
 """Errata, claims and the commands: prove and judge a study, merge all, summarise, exit status."""
 
-import json
 import subprocess
 import sys
 from pathlib import Path
@@ -9,6 +8,7 @@ import pandas as pd
 import pytest
 import yaml
 
+from smallsat.config import as_json
 from smallsat.errors import InputError
 from smallsat.evidence.claims import judge_claims, judged
 from smallsat.evidence.errata import Proof, prove_errata
@@ -16,6 +16,7 @@ from smallsat.evidence.grounds import Grounds
 from smallsat.evidence.ledger import ARTEFACT_COLUMNS, VALUE_COLUMNS, Ledger
 from smallsat.evidence.observation import Observation, observations_table
 from smallsat.evidence.summary import failures, value_kinds, verdict_counts
+from smallsat.quantities import Part
 from smallsat.results import read_table, write_table
 
 HERE = "tests_of_commands"
@@ -28,17 +29,23 @@ def importable(monkeypatch):
 
 
 def proof_of_sign(grounds: Grounds) -> Proof:
-    sign = grounds.config["sign"]
-    correct = grounds.config.get("correct", "")
-    return Proof(sign < 0, "1", "-1", f"the sign is {sign}", correct)
+    sign = grounds.section.sign
+    return Proof(sign < 0, "1", "-1", f"the sign is {sign}", grounds.section.correct)
 
 
 def sign_is_negative(grounds: Grounds):
-    return judged(grounds.config["sign"] < 0, f"sign {grounds.config['sign']}")
+    return judged(grounds.section.sign < 0, f"sign {grounds.section.sign}")
 
 
-def given(**config) -> Grounds:
-    return Grounds(config, Path("nowhere"), Ledger([], "transfer"), {})
+class Made(Part):
+    """A section of a study."""
+
+    sign: int = 1
+    correct: float | str = ""
+
+
+def given(**section) -> Grounds:
+    return Grounds(Made(**section), Path("nowhere"), Ledger([], "transfer"), {})
 
 
 @pytest.mark.parametrize(("sign", "holds"), [(-1, True), (1, False)])
@@ -126,7 +133,7 @@ def published(tmp_path):
         "rules": [],
         "errata": [],
         "claims": [],
-        "bindings": [{"ids": ["transfer/b"], "config": "transfer.radius"}],
+        "bindings": [{"ids": ["transfer/b"], "config": "transfer.problem.final_radius"}],
     }
     for name, content in entries.items():
         (folder / f"transfer/{name}.yaml").write_text(yaml.safe_dump(content))
@@ -139,12 +146,11 @@ def evidence(*arguments):
 
 
 @pytest.mark.parametrize(("time", "status"), [(3.2461, 0), (3.3, 1)])
-def test_from_observations_to_a_summary(published, tmp_path, time, status):
+def test_from_observations_to_a_summary(published, tmp_path, config, time, status):
     """A study is judged, merged, and a mismatch makes the summary fail."""
     results = tmp_path / "transfer"
     write_table(observations_table([Observation("transfer/a", time)]), results / "observations.csv")
-    config = json.dumps({"transfer": {"radius": 1.5}})
-    study = ["judge", "--config", config, "--published", published / "transfer"]
+    study = ["judge", "--config", as_json(config.transfer), "--published", published / "transfer"]
     assert evidence(*study, "--results", results).returncode == 0
     merged = tmp_path / "verdicts.csv"
     assert evidence("merge", results / "verdicts.csv", "--output", merged).returncode == 0
@@ -161,8 +167,8 @@ def test_from_observations_to_a_summary(published, tmp_path, time, status):
     assert evidence("summary", merged, "--published", published, "--what-if").returncode == 0
 
 
-def test_missing_observations_are_one_line_and_status_2(published, tmp_path):
-    study = ["judge", "--config", "{}", "--published", published / "transfer"]
+def test_missing_observations_are_one_line_and_status_2(published, tmp_path, config):
+    study = ["judge", "--config", as_json(config.transfer), "--published", published / "transfer"]
     run = evidence(*study, "--results", tmp_path / "none")
     assert run.returncode == 2
     assert run.stderr.startswith("smallsat: ")

@@ -9,9 +9,17 @@ from smallsat.errors import InputError
 from smallsat.evidence.errata import ERRATA_COLUMNS
 from smallsat.evidence.observation import Observation, observations_table
 from smallsat.evidence.verdicts import PENDING, VERDICT_COLUMNS, VERDICTS, judge
+from smallsat.quantities import Part
 
 ID = "transfer/table-1/time"
-CONFIG = {"transfer": {"radius": 1.5}}
+
+
+class Made(Part):
+    """A section of a study."""
+
+    radius: float = 1.5
+
+
 RULE = {"ids": [ID], "reason": "because"}
 
 
@@ -39,7 +47,7 @@ def verdict(
         [{"ids": [ID]} | binding] if binding else [],
         [{"ids": [ID], "key": "wrong-time"}] if erratum else [],
         proven(holds),
-        CONFIG,
+        Made(),
     )
     assert list(table.columns) == list(VERDICT_COLUMNS)
     (outcome,) = table.itertuples()
@@ -210,7 +218,7 @@ def test_inputs_are_judged_by_what_they_feed(printed, binding, erratum, expected
 
 def judge_with(rules=(), observations=(), errata=()):
     table = observations_table(observations)
-    return judge([row()], table, list(rules), [], list(errata), proven(), CONFIG)
+    return judge([row()], table, list(rules), [], list(errata), proven(), Made())
 
 
 def test_an_observation_of_an_unknown_id_is_an_error():

@@ -1,4 +1,4 @@
-"""What the schema cannot refuse, and what follows instead of being refused."""
+"""What no type can refuse, and what follows instead of being refused."""
 
 import copy
 

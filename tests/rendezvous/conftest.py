@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
+from smallsat.studies.rendezvous.configuration import Truth
 from smallsat.studies.rendezvous.guidance.law import Law
 from smallsat.studies.rendezvous.model.environment import environment, target_state
 
@@ -17,18 +18,23 @@ settings.load_profile("compiled")
 
 MEAN_MOTION = 0.00114
 MASS = 14.0
-TRUTH = {
-    "gravity_degree": 8,
-    "gravity_order": 8,
-    "density_factor": 1.0,
-    "drag_coefficient": {"target": 2.0, "chaser": 1.4},
-    "body_size_m": {"radial": 0.2, "along": 0.3, "normal": 0.1},
-    "inclination_deg": 51.6,
-    "raan_deg": 20.0,
-    "argument_of_latitude_deg": 30.0,
-    "earth_angle_deg": 40.0,
-    "step_s": 30.0,
-}
+TRUTH = Truth(
+    gravity_degree=8,
+    gravity_order=8,
+    density_factor=1.0,
+    drag_coefficient={"target": 2.0, "chaser": 1.4},
+    body_size_m={"radial": 0.2, "along": 0.3, "normal": 0.1},
+    inclination_deg=51.6,
+    raan_deg=20.0,
+    argument_of_latitude_deg=30.0,
+    earth_angle_deg=40.0,
+    step_s=30.0,
+)
+
+
+@pytest.fixture(scope="session")
+def section(config):
+    return config.rendezvous
 
 
 @pytest.fixture(scope="session")
@@ -36,7 +42,7 @@ def surroundings():
     """Environment with another mean motion or some settings changed."""
 
     def make(mean_motion=MEAN_MOTION, **changes):
-        return environment({**TRUTH, **changes}, mean_motion, MASS)
+        return environment(TRUTH.with_(**changes), mean_motion, MASS)
 
     return make
 

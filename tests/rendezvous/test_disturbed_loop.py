@@ -18,15 +18,10 @@ from smallsat.studies.rendezvous.simulation.motion import BURNS, COMMANDED
 
 
 @pytest.fixture(scope="module")
-def section(config):
-    return config["rendezvous"]
-
-
-@pytest.fixture(scope="module")
 def starts(section):
     """Six initial states of the studies, well outside the keep-out zone."""
     table = states_table(section, 20, 11)
-    far = table[table["distance_m"] > 2.0 * section["inferred"]["keep_out_m"]].head(6)
+    far = table[table["distance_m"] > 2.0 * section.inferred.keep_out_m].head(6)
     return far[["x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s"]].to_numpy()
 
 
@@ -40,8 +35,8 @@ def test_without_disturbances_it_is_the_linear_loop_but_for_the_field(section, s
     What is left is the curvature of the orbit over a kilometre and the length of the pulses.
     """
     law = base(section)
-    calm = section | {"truth": section["truth"] | {"gravity_degree": 0, "gravity_order": 0,
-                                                   "density_factor": 0.0}}  # fmt: skip
+    truth = section.truth.with_(gravity_degree=0, gravity_order=0, density_factor=0.0)
+    calm = section.with_(truth=truth)
     motion = disturbed_motion(calm, law, thrust_error=False, measurement_error=False)
     flown = simulate([law], starts, (0, 0), motion, streams(len(starts)))
     linear = simulate([law], starts, (0, 0))

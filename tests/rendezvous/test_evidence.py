@@ -4,29 +4,20 @@ The flights that two of them read are made up here: the far range of one ends at
 keep-out zone, the mid range of the other lies anywhere.
 """
 
-import copy
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from smallsat.strict_yaml import read_yaml
 from smallsat.studies.rendezvous.evidence import claims, errata
 from smallsat.studies.rendezvous.model.columns import CHANGE, STATE
 from smallsat.studies.rendezvous.parameters import law
 
-CONFIG = Path(__file__).parents[2] / "config/default/rendezvous.yaml"
-
-
-@pytest.fixture(scope="module")
-def section():
-    return read_yaml(CONFIG)["rendezvous"]
-
 
 def made_up(section, depth=0.0):
     """Two flights: far samples down to 1.05 r1 less a depth, m, mid samples from 1.1 r1 inwards."""
-    r1 = section["inferred"]["keep_out_m"]
+    r1 = section.inferred.keep_out_m
     rows = []
     for flight in ("v-bar", "r-bar"):
         for phase, ends in (("far", (5.0 * r1, 1.05 * r1 - depth)), ("mid", (1.1 * r1, 0.1 * r1))):
@@ -38,7 +29,7 @@ def made_up(section, depth=0.0):
 @pytest.fixture(scope="module")
 def on(grounds):
     """The grounds for a section of the configuration and results."""
-    return lambda section, results: grounds("rendezvous", {"rendezvous": section}, results)
+    return lambda section, results: grounds("rendezvous", section, results)
 
 
 @pytest.fixture(scope="module")
@@ -74,27 +65,24 @@ def test_proof_holds(section, results, name, on):
     ("name", "key", "value"),
     [
         # Another thruster, of which the bounds are no whole seconds.
-        ("control_bound_unit", ("spacecraft", "thruster_N"), 0.37),
+        ("control_bound_unit", "spacecraft.thruster_N", 0.37),
         # So strong a thruster that the bounds are accelerations within its reach.
-        ("control_bound_unit", ("spacecraft", "thruster_N"), 14 * 0.1786),
-        ("initial_distance", ("start", "position_m"), [140.0, -1690.0, 60.0]),
-        ("thrust_as_delta_v", ("spacecraft", "thruster_N"), 5.0),
-        ("port_axis", ("port_m",), [0.0, 0.5, 0.0]),
+        ("control_bound_unit", "spacecraft.thruster_N", 14 * 0.1786),
+        ("initial_distance", "start.position_m", [140.0, -1690.0, 60.0]),
+        ("thrust_as_delta_v", "spacecraft.thruster_N", 5.0),
+        ("port_axis", "port_m", [0.0, 0.5, 0.0]),
         # With samples of a second force and impulse are the same number.
-        ("on_time", ("phases", "far", "sample_time_s"), 1.0),
-        ("docking_cone_apex", ("inferred", "rotation_rate_rad_s"), 0.0),
+        ("on_time", "phases.far.sample_time_s", 1.0),
+        ("docking_cone_apex", "inferred.rotation_rate_rad_s", 0.0),
         # After so long a horizon there is no state left to count twice.
-        ("last_state_twice", ("phases", "final", "horizon"), 4000),
+        ("last_state_twice", "phases.final.horizon", 4000),
     ],
 )
-def test_proof_fails_where_the_document_would_be_right(section, results, name, key, value, on):
+def test_proof_fails_where_the_document_would_be_right(
+    section, results, name, key, value, on, changed
+):
     """A configuration in which the printed version is as good: the proof must not hold."""
-    changed = copy.deepcopy(section)
-    entry = changed
-    for part in key[:-1]:
-        entry = entry[part]
-    entry[key[-1]] = value
-    assert not getattr(errata, name)(on(changed, results)).holds
+    assert not getattr(errata, name)(on(changed(section, key, value), results)).holds
 
 
 def test_the_end_of_the_far_range_would_hold_inside_the_zone(section, tmp_path, on):
@@ -103,13 +91,12 @@ def test_the_end_of_the_far_range_would_hold_inside_the_zone(section, tmp_path, 
     assert not errata.rendezvous_end_distance(on(section, tmp_path)).holds
 
 
-def test_the_end_of_the_mid_range_needs_a_sample_that_is_far(section, tmp_path, on):
+def test_the_end_of_the_mid_range_needs_a_sample_that_is_far(section, tmp_path, on, changed):
     """A flight that is within r2 all the time shows nothing."""
     near = made_up(section)
     near[STATE[:3]] = 0.0
     near.to_parquet(tmp_path / "flights.parquet")
-    start = copy.deepcopy(section)
-    start["start"]["position_m"] = [0.0, -1.0, 0.0]
+    start = changed(section, "start.position_m", [0.0, -1.0, 0.0])
     assert not errata.approach_end_vector(on(start, tmp_path)).holds
 
 
@@ -176,13 +163,11 @@ def test_claims_that_need_no_flight(section, tmp_path, on):
     assert claims.six_thrusters_move_in_six_degrees(given).outcome == "fails"
 
 
-def test_the_same_claims_can_come_out_otherwise(section, tmp_path, on):
+def test_the_same_claims_can_come_out_otherwise(section, tmp_path, on, changed):
     """Other samples, another velocity, eight thrusters."""
-    changed = copy.deepcopy(section)
-    changed["phases"]["mid"]["sample_time_s"] = 30.0
-    changed["start"]["velocity_m_s"] = [-0.90, -0.42, 0.0]
-    changed["spacecraft"]["thrusters"] = 12
-    given = on(changed, tmp_path)
+    other = changed(section, "phases.mid.sample_time_s", 30.0)
+    other = changed(other, "start.velocity_m_s", [-0.90, -0.42, 0.0])
+    given = on(changed(other, "spacecraft.thrusters", 12), tmp_path)
     assert claims.times_are_whole_samples(given).outcome == "fails"
     assert claims.velocity_is_of_a_stable_ellipse(given).outcome == "fails"
     assert claims.six_thrusters_move_in_six_degrees(given).outcome == "holds"
@@ -190,12 +175,11 @@ def test_the_same_claims_can_come_out_otherwise(section, tmp_path, on):
 
 def test_the_law_reads_the_inferred_values(section):
     """Shares become metres, full angles are halved, the R-bar has the inferred side."""
-    inferred = section["inferred"]
+    inferred = section.inferred
     given = law(section, "r-bar")
-    assert given.set_points[0] == pytest.approx(inferred["set_point_1"] * inferred["keep_out_m"])
-    share = {"half": 1.0, "full": 0.5}[inferred["readings"]["cone_angle"]]
+    assert given.set_points[0] == pytest.approx(inferred.set_point_1 * inferred.keep_out_m)
+    share = {"half": 1.0, "full": 0.5}[inferred.readings.cone_angle]
     assert np.degrees(given.cone_angles) == pytest.approx(share * np.array([15.0, 15.0, 8.0]))
     assert (
-        given.axis
-        == {"above": (1.0, 0.0, 0.0), "below": (-1.0, 0.0, 0.0)}[inferred["readings"]["r_bar"]]
+        given.axis == {"above": (1.0, 0.0, 0.0), "below": (-1.0, 0.0, 0.0)}[inferred.readings.r_bar]
     )

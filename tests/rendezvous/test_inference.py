@@ -1,16 +1,12 @@
 """The inference: sums of delta-v by hand, crossings, residuals, a search that can be repeated."""
 
-import copy
-from pathlib import Path
-
 import numpy as np
 import pandas as pd
 import pytest
 
-from smallsat.strict_yaml import read_yaml
 from smallsat.studies.rendezvous.inference.search import (
+    FITTED,
     misfits,
-    parameter_names,
     printed_steps,
     residuals,
     search,
@@ -19,13 +15,6 @@ from smallsat.studies.rendezvous.inference.search import (
 )
 from smallsat.studies.rendezvous.inference.summary import acceptable, identified, profiles
 from smallsat.studies.rendezvous.simulation.delta_v import READINGS, summed
-
-CONFIG = Path(__file__).parents[2] / "config/default/rendezvous.yaml"
-
-
-@pytest.fixture(scope="module")
-def section():
-    return read_yaml(CONFIG)["rendezvous"]
 
 
 @pytest.fixture(scope="module")
@@ -111,7 +100,7 @@ def test_a_manoeuvre_that_does_not_end_is_a_bounded_miss(section, flown, ledger)
 def test_the_configured_set_beats_the_first_look(section, flown, ledger):
     """Every cell of the far and mid ranges within two steps and a tenth of delta-v."""
     table = residuals(section, flown, ledger("rendezvous"))
-    reading = section["inferred"]["readings"]["delta_v"]
+    reading = section.inferred.readings.delta_v
     near = table[table["cell"].str.contains("far|mid")]
     steps = near["cell"].str.endswith("steps")
     miss = near[f"computed {reading}"] - near["printed"]
@@ -122,21 +111,20 @@ def test_the_configured_set_beats_the_first_look(section, flown, ledger):
 
 @pytest.fixture(scope="module")
 def small(section):
-    changed = copy.deepcopy(section)
-    changed["inference"] |= {"population": 8, "generations": 1, "chain": 1}
-    return changed
+    inference = section.inference.with_(population=8, generations=1, chain=1)
+    return section.with_(inference=inference)
 
 
 def test_a_search_can_be_repeated_and_stays_within_its_bounds(small, ledger):
     """Seeded: the same table twice; the configured set is among those evaluated."""
-    side = small["inferred"]["readings"]["r_bar"]
+    side = small.inferred.readings.r_bar
     first, second = (search(small, side, ledger("rendezvous")) for _ in range(2))
     pd.testing.assert_frame_equal(first, second)
-    for name in parameter_names(small):
-        low, high = small["inference"]["bounds"][name]
+    for name in FITTED:
+        low, high = small.inference.bounds[name]
         assert first[name].between(low - 1e-9, high + 1e-9).all()
     own = misfits(small, simulate_sets([small]), ledger("rendezvous"))[
-        small["inferred"]["readings"]["delta_v"]
+        small.inferred.readings.delta_v
     ].iloc[0]
     assert first["misfit"].min() <= own * (1 + 1e-6)
 
@@ -144,15 +132,14 @@ def test_a_search_can_be_repeated_and_stays_within_its_bounds(small, ledger):
 def test_what_is_identified_is_read_off_the_acceptable_sets(section):
     """A parameter that decides the misfit is identified, one that does not is free."""
     random = np.random.default_rng(0)
-    names = parameter_names(section)
-    bounds = section["inference"]["bounds"]
-    table = pd.DataFrame({name: random.uniform(*bounds[name], 3000) for name in names})
-    low, high = bounds["keep_out_m"]
+    bounds = section.inference.bounds
+    table = pd.DataFrame({name: random.uniform(*bounds[name], 3000) for name in FITTED})
+    low, high = bounds.keep_out_m
     table["misfit"] = 1.0 + (20.0 * (table["keep_out_m"] - (low + high) / 2) / (high - low)) ** 2
     found = identified(section, table).set_index("parameter")["verdict"]
     assert found["keep_out_m"] == "identified"
     assert found["plane_rate"] == "free"
-    limit = section["inference"]["acceptable"]
+    limit = section.inference.acceptable
     assert (acceptable(section, table)["misfit"] <= limit * table["misfit"].min()).all()
     envelope = profiles(section, table)
     own = envelope[envelope["parameter"] == "keep_out_m"]
@@ -162,7 +149,7 @@ def test_what_is_identified_is_read_off_the_acceptable_sets(section):
 def test_readings_replace_only_what_they_name(section):
     """The first switch is one of three; the rest of the section stays."""
     changed = with_values(section, {"plane_rate": 1.5}, {"first_switch": "distance"})
-    before, after = section["inferred"], changed["inferred"]
-    assert after["readings"]["switches"] == ["distance", *before["readings"]["switches"][1:]]
-    assert after["plane_rate"] == 1.5
-    assert section["inferred"]["plane_rate"] == before["plane_rate"] != 1.5
+    before, after = section.inferred, changed["inferred"]
+    assert after.readings.switches == ("distance", *before.readings.switches[1:])
+    assert after.plane_rate == 1.5
+    assert section.inferred.plane_rate == before.plane_rate != 1.5

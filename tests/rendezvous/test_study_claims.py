@@ -1,7 +1,5 @@
 """Predicates of chapters 4 and 5 on made-up manoeuvres: each can hold, and each can fail."""
 
-from copy import deepcopy
-
 import numpy as np
 import pytest
 import synthetic
@@ -9,6 +7,7 @@ import synthetic
 from smallsat.evidence.claims import judge_claims
 from smallsat.results import write_table
 from smallsat.strict_yaml import read_yaml
+from smallsat.studies.rendezvous.configuration import Sweep
 from smallsat.studies.rendezvous.evidence.monte_carlo_observations import (
     predictive_count,
     predictive_maximum,
@@ -27,10 +26,10 @@ def judge(root, grounds):
     """Outcomes of the claims with these names."""
     entries = read_yaml(root / "data/published/rendezvous/claims.yaml")
 
-    def outcomes(config, folder, names):
+    def outcomes(section, folder, names):
         chosen = [entry for entry in entries if entry["id"] in names]
         assert {entry["id"] for entry in chosen} == set(names)
-        found = judge_claims(chosen, grounds("rendezvous", config, folder), "claims.yaml")
+        found = judge_claims(chosen, grounds("rendezvous", section, folder), "claims.yaml")
         return dict(zip(found["id"], found["outcome"], strict=True))
 
     return outcomes
@@ -85,7 +84,7 @@ EXPECTED = {
 
 
 @pytest.mark.parametrize("world", [0, 1, 2], ids=["as said", "reversed", "no effect"])
-def test_sweep_claims_find_the_effect_that_is_there(judge, config, tmp_path, world):
+def test_sweep_claims_find_the_effect_that_is_there(judge, section, tmp_path, world):
     """120 initial states with a scatter of 30 % among them and of 2 % from case to case."""
     laws = (AS_SAID, REVERSED, NOTHING)[world]
     tables = {
@@ -96,23 +95,23 @@ def test_sweep_claims_find_the_effect_that_is_there(judge, config, tmp_path, wor
     }  # fmt: skip
     states = synthetic.states(COUNT)
     write(tmp_path, domain=synthetic.domain(states), initial_states=states, **tables)
-    found = judge(config, tmp_path, EXPECTED)
+    found = judge(section, tmp_path, EXPECTED)
     expected = {name: outcomes[world] for name, outcomes in EXPECTED.items() if outcomes[world]}
     assert {name: found[name] for name in expected} == expected
 
 
 @pytest.mark.parametrize("times", [2, 3, 5])
 @pytest.mark.parametrize("horizons", [1, 2, 4])
-def test_sweep_claims_wait_where_a_run_has_other_lists(judge, config, tmp_path, horizons, times):
+def test_sweep_claims_wait_where_a_run_has_other_lists(judge, section, tmp_path, horizons, times):
     """A claim that names places of the document's lists is undecided; none stops the judge."""
-    tables, config = {}, deepcopy(config)
+    tables, studies = {}, section.studies
     for phase in ("rendezvous", "approach", "docking"):
         grid = ([8 * (i + 1) for i in range(horizons)], [7.0 * (i + 1) for i in range(times)])
-        config["rendezvous"]["studies"][phase] = {"horizons": grid[0], "sample_times_s": grid[1]}
+        studies = studies.with_(**{phase: Sweep(horizons=grid[0], sample_times_s=grid[1])})
         tables[f"{phase}_sweep"] = synthetic.sweep(phase, *grid, COUNT, *AS_SAID[phase])
     states = synthetic.states(COUNT)
     write(tmp_path, domain=synthetic.domain(states), initial_states=states, **tables)
-    found = judge(config, tmp_path, EXPECTED)
+    found = judge(section.with_(studies=studies), tmp_path, EXPECTED)
     assert set(found) == set(EXPECTED)
     if horizons != 3:
         assert found["n1-30-45"] == found["n2-15-30"] == "undecided"
@@ -122,7 +121,7 @@ def test_sweep_claims_wait_where_a_run_has_other_lists(judge, config, tmp_path, 
         assert found["docking-recommended"] == "undecided"
 
 
-def test_claims_of_manoeuvres_that_never_dock(judge, config, tmp_path):
+def test_claims_of_manoeuvres_that_never_dock(judge, section, tmp_path):
     """Nothing completes, so nothing is decided, and nothing stops the judge."""
     states = synthetic.states(COUNT)
     tables = {
@@ -135,22 +134,22 @@ def test_claims_of_manoeuvres_that_never_dock(judge, config, tmp_path):
     }  # fmt: skip
     domain = synthetic.domain(states).assign(completed=False)
     write(tmp_path, domain=domain, initial_states=states, **tables)
-    found = judge(config, tmp_path, {**EXPECTED, "behind-longer": (), "quadrant-alone": ()})
+    found = judge(section, tmp_path, {**EXPECTED, "behind-longer": (), "quadrant-alone": ()})
     assert set(found.values()) == {"undecided"}
 
 
-def test_domain_claims(judge, config, tmp_path):
+def test_domain_claims(judge, section, tmp_path):
     """Manoeuvres made to cost more from behind and from afar; then a shuffled quadrant."""
     names = ["behind-longer", "behind-minimum", "distance-minimum", "quadrant-alone"]
     states = synthetic.states(400)
     write(tmp_path, domain=synthetic.domain(states), initial_states=states)
-    assert judge(config, tmp_path, names) == dict.fromkeys(names, "holds")
+    assert judge(section, tmp_path, names) == dict.fromkeys(names, "holds")
     mirrored = states.assign(
         quadrant=(5 - states["quadrant"]).astype("int8"),
         distance_m=2700.0 - states["distance_m"],
     )
     write(tmp_path, initial_states=mirrored)
-    found = judge(config, tmp_path, names)
+    found = judge(section, tmp_path, names)
     assert found["behind-longer"] == found["distance-minimum"] == "fails"
 
 
@@ -178,7 +177,7 @@ def disturbed(case, runs, docking_time, docking_delta_v, completed=1.0):
         ((330.0, 0.25), (1500.0, 4.0), 0.5, (None, "fails", "fails", "fails")),
     ],
 )
-def test_robustness_claims(judge, config, tmp_path, noisy, filtered, share, outcomes):
+def test_robustness_claims(judge, section, tmp_path, noisy, filtered, share, outcomes):
     """A chaser that bounces and a filter that helps; then one that does not, and one that hurts."""
     rows = [
         disturbed(UNDISTURBED, 1, 300.0, 0.2),
@@ -187,14 +186,14 @@ def test_robustness_claims(judge, config, tmp_path, noisy, filtered, share, outc
     ]
     write(tmp_path, robustness=synthetic.pd.concat(rows, ignore_index=True))
     names = ("increase-docking", "bounce", "robust", "filter")
-    found = judge(config, tmp_path, names)
+    found = judge(section, tmp_path, names)
     for name, outcome in zip(names, outcomes, strict=True):
         assert outcome is None or found[name] == outcome, name
 
 
-def test_failures_at_rest_on_the_sphere_are_told_from_others(judge, config, tmp_path):
+def test_failures_at_rest_on_the_sphere_are_told_from_others(judge, section, tmp_path):
     """Twelve failures on the keep-out sphere without speed; then with speed."""
-    radius = config["rendezvous"]["inferred"]["keep_out_m"]
+    radius = section.inferred.keep_out_m
     table = synthetic.sweep("rendezvous", *RENDEZVOUS, 60, *AS_SAID["rendezvous"])
     failed = (table["case"] == "N 45, Ts 60 s") & (table["sample"] < 12)
     table.loc[failed, "completed"] = False
@@ -202,10 +201,10 @@ def test_failures_at_rest_on_the_sphere_are_told_from_others(judge, config, tmp_
     table.loc[failed, "rendezvous_end_y_m"] = -radius
     write(tmp_path, rendezvous_sweep=table)
     names = ["failures-stall", "rendezvous-failures"]
-    assert judge(config, tmp_path, names) == dict.fromkeys(names, "holds")
+    assert judge(section, tmp_path, names) == dict.fromkeys(names, "holds")
     table.loc[failed, "rendezvous_end_vx_m_s"] = 1.0
     write(tmp_path, rendezvous_sweep=table)
-    assert judge(config, tmp_path, names)["failures-stall"] == "fails"
+    assert judge(section, tmp_path, names)["failures-stall"] == "fails"
 
 
 def test_predictive_count_covers_another_sample():

@@ -43,12 +43,12 @@ def domain(folder, factor):
     write_table(synthetic.pd.concat(parts, ignore_index=True), folder / "studies/domain.parquet")
 
 
-def test_sample_time_subscript(config, grounds):
+def test_sample_time_subscript(section, grounds):
     """Printed in one list only; in both, the subscript would be no slip."""
-    found = study_errata.sample_time_subscript(grounds("rendezvous", config, NOWHERE))
+    found = study_errata.sample_time_subscript(grounds("rendezvous", section, NOWHERE))
     assert found.holds and found.correct == "Ts,1 = 60 s"
     both = {"section-4-3/approach-sample-times-tested/item-6": "60"}
-    changed = grounds("rendezvous", config, NOWHERE, both)
+    changed = grounds("rendezvous", section, NOWHERE, both)
     assert not study_errata.sample_time_subscript(changed).holds
 
 
@@ -59,35 +59,35 @@ def test_sample_time_subscript(config, grounds):
         ("section-6-2/docking-horizons-n3-benchmarked/item-3", "5"),
     ],
 )
-def test_docking_horizons(config, grounds, place, other):
+def test_docking_horizons(section, grounds, place, other):
     """Missing in one list and printed in another; listed in both, or nowhere, it is no slip."""
-    found = study_errata.docking_horizons(grounds("rendezvous", config, NOWHERE))
+    found = study_errata.docking_horizons(grounds("rendezvous", section, NOWHERE))
     assert found.holds and found.correct == "N3 = 5, 12, 30"
-    changed = grounds("rendezvous", config, NOWHERE, {place: other})
+    changed = grounds("rendezvous", section, NOWHERE, {place: other})
     assert not study_errata.docking_horizons(changed).holds
 
 
-def test_approach_figures_swapped(config, tmp_path, grounds):
+def test_approach_figures_swapped(section, tmp_path, grounds):
     """Infeasible at the shortest horizon; at the next one, the text would be right."""
     fly(tmp_path)
-    assert study_errata.approach_figures_swapped(grounds("rendezvous", config, tmp_path)).holds
+    assert study_errata.approach_figures_swapped(grounds("rendezvous", section, tmp_path)).holds
     fly(tmp_path, infeasible_at=15)
-    assert not study_errata.approach_figures_swapped(grounds("rendezvous", config, tmp_path)).holds
+    assert not study_errata.approach_figures_swapped(grounds("rendezvous", section, tmp_path)).holds
 
 
-def test_docking_axis_label(config, tmp_path, grounds):
+def test_docking_axis_label(section, tmp_path, grounds):
     """With few intervals of docking, or an approach on little delta-v, the label may be right."""
     fly(tmp_path)
-    assert study_errata.docking_axis_label(grounds("rendezvous", config, tmp_path)).holds
+    assert study_errata.docking_axis_label(grounds("rendezvous", section, tmp_path)).holds
     fly(tmp_path, steps={"approach": 280, "docking": 60})
-    assert not study_errata.docking_axis_label(grounds("rendezvous", config, tmp_path)).holds
+    assert not study_errata.docking_axis_label(grounds("rendezvous", section, tmp_path)).holds
     fly(tmp_path, delta_v={"approach": 0.1})
-    assert not study_errata.docking_axis_label(grounds("rendezvous", config, tmp_path)).holds
+    assert not study_errata.docking_axis_label(grounds("rendezvous", section, tmp_path)).holds
 
 
-def test_appendix_caption(config, tmp_path, grounds):
+def test_appendix_caption(section, tmp_path, grounds):
     """Two variants that look alike could share a figure."""
     domain(tmp_path, 3.0)
-    assert study_errata.appendix_caption(grounds("rendezvous", config, tmp_path)).holds
+    assert study_errata.appendix_caption(grounds("rendezvous", section, tmp_path)).holds
     domain(tmp_path, 1.0)
-    assert not study_errata.appendix_caption(grounds("rendezvous", config, tmp_path)).holds
+    assert not study_errata.appendix_caption(grounds("rendezvous", section, tmp_path)).holds

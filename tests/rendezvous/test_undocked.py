@@ -1,7 +1,5 @@
 """Manoeuvres that never dock: rows, words in the figures, and nothing that stops."""
 
-import copy
-
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
@@ -20,13 +18,12 @@ from smallsat.studies.rendezvous.simulation.flights import simulate_cases
 @pytest.fixture(scope="module")
 def section(config):
     """A far range whose control cannot bring the chaser into its narrow cone within the time."""
-    changed = copy.deepcopy(config["rendezvous"])
-    changed["phases"]["far"]["control_bound_m_s"] = 1e-5
-    changed["phases"]["far"]["cone_angle_deg"] = 0.01
+    phases = config.rendezvous.phases
     # Long steps, so that few programs are solved.
-    changed["phases"]["far"]["sample_time_s"] = 300.0
-    changed["phases"]["far"]["horizon"] = 5
-    return changed
+    far = phases.far.with_(
+        control_bound_m_s=1e-5, cone_angle_deg=0.01, sample_time_s=300.0, horizon=5
+    )
+    return config.rendezvous.with_(phases=phases.with_(far=far))
 
 
 @pytest.fixture(scope="module")

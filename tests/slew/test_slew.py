@@ -142,7 +142,7 @@ def test_usage_is_in_percent_of_the_limits(section, given):
         (("manoeuvre", "initial_quaternion"), [0.0, 0.0, 0.0, 2.0], "unit quaternion"),
     ],
 )
-def test_what_a_schema_cannot_refuse(section, key, value, words):
+def test_what_a_type_cannot_refuse(section, key, value, words):
     """One line that names the key."""
     wrong = copy.deepcopy(section)
     wrong[key[0]][key[1]] = value

@@ -7,24 +7,30 @@ from typing import Any
 
 import numpy as np
 
-from smallsat.config import Config, lookup
+from smallsat.catalogue import untyped
+from smallsat.config import lookup
 from smallsat.errors import InputError
 from smallsat.evidence.printed import parse_printed
 from smallsat.evidence.reference import resolve
+from smallsat.quantities import Part
 
 
-def bound_value(row: Mapping[str, str], binding: Mapping[str, Any], config: Config) -> float:
+def bound_value(row: Mapping[str, str], binding: Mapping[str, Any], section: Part) -> float:
     """The value of ours that a printed input feeds, in the printed unit.
 
     A binding names a ``config`` key, a ``constant`` of the code, or a function that derives the
-    value from the configuration (``derived``). Where that is a list, ``entry`` or else the row's
+    value from the study's section (``derived``). Where that is a list, ``entry`` or else the row's
     component picks one: ``item 3``, ``min``/``max``, ``x``, ``2``, ``23`` (row 2, column 3).
     """
     if "config" in binding:
-        value: Any = _configured(binding["config"], config)
+        value: Any = _configured(binding["config"], {row["id"].partition("/")[0]: section})
     elif "derived" in binding:
-        value = resolve(binding["derived"], "bindings.yaml")(config)
+        study = row["id"].partition("/")[0]
+        value = resolve(binding["derived"], "bindings.yaml")(
+            section if study == "rendezvous" else {study: untyped(section)}
+        )
     else:
+        study = row["id"].partition("/")[0]
         value = resolve(binding["constant"], "bindings.yaml")
     if "entry" in binding:
         value = value[binding["entry"]]
@@ -33,7 +39,7 @@ def bound_value(row: Mapping[str, str], binding: Mapping[str, Any], config: Conf
     return float(value)
 
 
-def _configured(key: str, config: Config) -> Any:
+def _configured(key: str, config: Mapping[str, Part]) -> Any:
     """The value of a key; of an entry beyond the end of a list, not a number.
 
     A what-if run may have a shorter list: then the printed entry feeds nothing.
@@ -41,7 +47,7 @@ def _configured(key: str, config: Config) -> Any:
     above, _, place = key.rpartition(".")
     if place.isdecimal():
         entries = lookup(config, above)
-        if isinstance(entries, list) and int(place) >= len(entries):
+        if isinstance(entries, tuple) and int(place) >= len(entries):
             return nan
     return lookup(config, key)
 

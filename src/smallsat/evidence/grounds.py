@@ -3,22 +3,24 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Generic
 
 import pandas as pd
 
-from smallsat.config import Config
+from smallsat.catalogue import untyped
 from smallsat.evidence.ledger import Ledger, read_artefacts
+from smallsat.quantities import Section
 from smallsat.results import read_table
 
 
 @dataclass(frozen=True)
-class Grounds:
+class Grounds(Generic[Section]):
     """The grounds on which one study is judged.
 
     Attributes
     ----------
-    config
-        The configuration, at least its section for this study.
+    section
+        The study's section of the configuration.
     results
         Folder with the results of the study.
     ledger
@@ -27,10 +29,15 @@ class Grounds:
         Captions of the document's tables and figures, by their names such as ``Figure A.3``.
     """
 
-    config: Config
+    section: Section
     results: Path
     ledger: Ledger
     captions: Mapping[str, str]
+
+    @property
+    def config(self):
+        """Transition: the plain form."""
+        return {type(self.section).__module__.split(".")[2]: untyped(self.section)}
 
     def table(self, name: str) -> pd.DataFrame:
         """A table of the results by its file's name; errors as from `read_table`."""
@@ -49,7 +56,7 @@ class Grounds:
         return table
 
 
-def read_grounds(config: Config, published: Path, results: Path) -> Grounds:
+def read_grounds(section: Section, published: Path, results: Path) -> Grounds[Section]:
     """The grounds of a study, with the ledger and captions of its folder of published values."""
     captions = {row["id"]: row["caption"] for row in read_artefacts(published / "artefacts.csv")}
-    return Grounds(config, results, Ledger.read(published / "values.csv"), captions)
+    return Grounds(section, results, Ledger.read(published / "values.csv"), captions)

@@ -7,11 +7,11 @@ from typing import Any
 
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.errors import InputError
 from smallsat.evidence.bindings import agrees, binding_name, bound_value
 from smallsat.evidence.patterns import match_entries
 from smallsat.evidence.printed import LOST, Printed, parse_printed
+from smallsat.quantities import Part
 
 VERDICTS = (
     "reproduced",
@@ -61,8 +61,8 @@ class Case:
         The entries of ``rules.yaml`` and ``bindings.yaml`` that name it; empty where none does.
     proof
         What the proof of its erratum found; empty where it is not listed as one.
-    config
-        The configuration, which the bindings look into.
+    section
+        The study's section of the configuration, which the bindings look into.
     """
 
     row: Row
@@ -71,7 +71,7 @@ class Case:
     rule: Entry
     binding: Entry
     proof: Entry
-    config: Config
+    section: Part
 
     @property
     def shown(self) -> float:
@@ -109,7 +109,7 @@ def judge(
     bindings: Sequence[Entry],
     errata: Sequence[Entry],
     proofs: pd.DataFrame,
-    config: Config,
+    section: Part,
 ) -> pd.DataFrame:
     """Judge every row of one document: the first of `JUDGES` that answers decides.
 
@@ -123,8 +123,8 @@ def judge(
         Entries of ``rules.yaml``, ``bindings.yaml`` and ``errata.yaml`` for this document.
     proofs
         What the proofs of the errata found (`smallsat.evidence.errata.prove_errata`).
-    config
-        The configuration, at least its section for this study, which the bindings look into.
+    section
+        The study's section of the configuration, which the bindings look into.
 
     Returns
     -------
@@ -158,7 +158,7 @@ def judge(
             rule=rule_of.get(identifier, {}),
             binding=binding_of.get(identifier, {}),
             proof=proof_of[erratum["key"]] if erratum else {},
-            config=config,
+            section=section,
         )
         outcome = next(found for ask in JUDGES if (found := ask(case)))
         judged.append({name: row.get(name, "") for name in VERDICT_COLUMNS} | outcome)
@@ -195,7 +195,7 @@ def _input(case: Case) -> Outcome | None:
         if case.proof:
             return _proven(case, nan)
         return case.outcome("context", f"not a parameter of ours: {binding['not_ours']}", nan)
-    value, name = bound_value(case.row, binding, case.config), binding_name(binding)
+    value, name = bound_value(case.row, binding, case.section), binding_name(binding)
     if case.row["printed"] == LOST:
         return case.outcome("context", f"lost from the text; {name} is used", value)
     if "reading" in binding:

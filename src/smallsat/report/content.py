@@ -11,7 +11,7 @@ from typing import Any
 import pandas as pd
 
 from smallsat.catalogue import read_catalogue
-from smallsat.config import Config, default_config
+from smallsat.config import Values
 from smallsat.errors import InputError
 from smallsat.evidence.ledger import VALUE_KINDS, read_artefacts
 from smallsat.evidence.not_converged import read_not_converged
@@ -37,8 +37,8 @@ EXTRAS_DIGITS = 7
 def collect(
     project: Path,
     run: Path,
-    config: Config,
-    default: Config,
+    config: Values,
+    default: Values,
     left_out: Collection[str] = (),
     studies: Collection[str] = (),
 ) -> Content:
@@ -216,7 +216,7 @@ def _cell(value: Any) -> str:
     return str(value)
 
 
-def _run(project: Path, run: Path, config: Config, default: Config) -> Content:
+def _run(project: Path, run: Path, config: Values, default: Values) -> Content:
     """Which run this is: its folder, its configuration and where that departs from the default."""
     folder = run.resolve().relative_to(project.resolve()).as_posix()
     own, reference = ({**values, "run": ""} for values in (config, default))
@@ -240,6 +240,7 @@ def _leaves(value: Any, key: str = "") -> Iterator[tuple[str, str]]:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``content``."""
     parser.add_argument("--config", required=True, type=json.loads, help="whole configuration")
+    parser.add_argument("--default", required=True, type=json.loads, help="the documents' own")
     parser.add_argument("--project", required=True, type=Path, help="folder of the project")
     parser.add_argument("--run", default=Path(), type=Path, help="folder of the run")
     parser.add_argument("--left-out", default=[], type=json.loads, help="targets not made, JSON")
@@ -253,7 +254,7 @@ def main(arguments: argparse.Namespace) -> None:
         arguments.project,
         arguments.run,
         arguments.config,
-        default_config(arguments.project),
+        arguments.default,
         arguments.left_out,
         arguments.studies,
     )

@@ -5,9 +5,9 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from smallsat.catalogue import study_module
-from smallsat.config import Config
+from smallsat.catalogue import study_module, untyped
 from smallsat.errors import InputError
+from smallsat.quantities import Part
 from smallsat.strict_yaml import read_yaml
 
 NOTEBOOK_KEYS = ("section", "published", "reads", "makes", "runs")
@@ -55,7 +55,7 @@ class NotebookRun:
         """Paths of its figures without a suffix."""
         return [f"figures/{self.study}/{figure}" for figure in self.figures]
 
-    def given(self, section: Config, results: str, published: str) -> dict[str, Any]:
+    def given(self, section: Part, results: str, published: str) -> dict[str, Any]:
         """The parameters of the notebook.
 
         Parameters
@@ -71,8 +71,8 @@ class NotebookRun:
         else:
             given |= {"folder": f"figures/{self.study}", "figures": dict(self.figures)}
         if self.section:
-            keys = section if self.section == ALL else self.section
-            given["section"] = {key: section[key] for key in keys}
+            keys = None if self.section == ALL else set(self.section)
+            given["section"] = section.model_dump(include=keys)
         if self.published:
             given["published"] = published
         return given
@@ -120,7 +120,7 @@ def read_runs(folder: Path) -> list[NotebookRun]:
     return runs
 
 
-def drawn(run: NotebookRun, section: Config) -> NotebookRun:
+def drawn(run: NotebookRun, section: Part) -> NotebookRun:
     """The run without the figures of cases that the configuration leaves out.
 
     A study whose configuration can leave out any has a module ``figures.selection``.
@@ -131,7 +131,7 @@ def drawn(run: NotebookRun, section: Config) -> NotebookRun:
     figures = {
         figure: what
         for figure, what in run.figures.items()
-        if module.is_drawn(section, run.notebook, what, run.parameters)
+        if module.is_drawn(untyped(section), run.notebook, what, run.parameters)
     }
     return replace(run, figures=figures)
 

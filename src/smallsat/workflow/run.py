@@ -4,8 +4,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from smallsat.catalogue import study_module
-from smallsat.config import Config, default_config, overlaid_config, run_folder, schema_of
+from smallsat.catalogue import study_module, untyped
+from smallsat.config import Config, default_config, overlaid_config, run_folder
 
 
 @dataclass(frozen=True)
@@ -14,13 +14,14 @@ class Run:
 
     Attributes
     ----------
-    config
-        The configuration; paths of course files are absolute, since jobs run in the run's folder.
+    config, default
+        The configuration, and the documents' own values.
     folder
         Folder of the run from the project's root; ``.`` for the reproduction.
     """
 
     config: Config
+    default: Config
     folder: str
 
 
@@ -40,27 +41,19 @@ def read_run(project: Path, files: Iterable[Path], entries: Iterable[str]) -> Ru
         Naming the first key or file that does not do, its value and what is allowed.
     """
     default = default_config(project)
-    config = checked(overlaid_config(default, schema_of(project), files, entries))
-    return Run(config, run_folder(config, default))
+    config = overlaid_config(default, files, entries)
+    check(config)
+    return Run(config, default, run_folder(config, default))
 
 
-def checked(config: Config) -> Config:
-    """A configuration that fits its schema, after the checks that a schema cannot make.
-
-    Paths of course files become absolute.
+def check(config: Config) -> None:
+    """Refuse what no type can, by the checks of each study that has a module ``parameters``.
 
     Raises
     ------
     InputError
         Naming the first key that does not do, its value and what is allowed.
     """
-    return {
-        key: _checked(key, value) if isinstance(value, dict) else value
-        for key, value in config.items()
-    }
-
-
-def _checked(study: str, section: Config) -> Config:
-    """The section after the checks of its study, if this has a module ``parameters``."""
-    module = study_module(study, "parameters")
-    return section if module is None else module.check(section)
+    for study, section in config:
+        if module := study_module(study, "parameters"):
+            module.check(untyped(section))

@@ -3,8 +3,10 @@
 import argparse
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
+from typing import Any, get_args, get_type_hints
 
 from smallsat.results import write_table
 from smallsat.step import Shard, Step, Tables
@@ -14,7 +16,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``run``."""
     parser.add_argument("study")
     parser.add_argument("step", help="a module of the study's steps")
-    parser.add_argument("--config", required=True, type=json.loads, help="its section, JSON")
+    parser.add_argument("--config", required=True, type=json.loads, help="what it depends on, JSON")
     parser.add_argument("--results", required=True, type=Path, help="folder of its results")
     parser.add_argument("--published", default=Path(), type=Path, help="folder of its values")
     parser.add_argument("--part", default="", help="of a step that runs in parts")
@@ -33,8 +35,10 @@ def main(arguments: argparse.Namespace) -> None:
     run_step(arguments.study, arguments.step, step)
 
 
-def run_step(study: str, name: str, step: Step) -> None:
-    """Run a step; each of its tables goes into the folder of the study's results."""
-    run: Callable[[Step], Tables] = import_module(f"smallsat.studies.{study}.steps.{name}").run
+def run_step(study: str, name: str, step: Step[Any]) -> None:
+    """Run a step with what it asks for of the section; its tables go into the study's results."""
+    run: Callable[[Step[Any]], Tables] = import_module(f"smallsat.studies.{study}.steps.{name}").run
+    for kind in get_args(get_type_hints(run)["step"]):
+        step = replace(step, section=kind.model_validate(step.section))
     for file, table in run(step).items():
         write_table(table, step.results / file)

@@ -1,13 +1,11 @@
-"""The configuration's ``rendezvous`` section as guidance laws, and checks beyond the schema."""
-
-from itertools import pairwise
+"""The configuration as guidance laws, and the checks that no type can make."""
 
 import numpy as np
 
-from smallsat.config import Config
 from smallsat.dynamics.environment import egm96
 from smallsat.dynamics.units import MINUTE
 from smallsat.errors import InputError
+from smallsat.studies.rendezvous.configuration import Configuration, Flight
 from smallsat.studies.rendezvous.guidance.law import (
     ALONG_AXIS,
     AT_HORIZON,
@@ -32,80 +30,80 @@ STUDY_PHASES = ("rendezvous", "approach", "docking")
 CONE_SHARES = {"half": 1.0, "full": 0.5}
 
 
-def start_state(section: Config) -> np.ndarray:
+def start_state(section: Flight) -> np.ndarray:
     """Relative state at the start of every case, (6,), m and m/s (Table 3.2)."""
-    start = section["start"]
-    return np.array([*start["position_m"], *start["velocity_m_s"]], dtype=float)
+    start = section.start
+    return np.array([*start.position_m, *start.velocity_m_s], dtype=float)
 
 
-def law(section: Config, case: str = "v-bar") -> Law:
+def law(section: Flight, case: str = "v-bar") -> Law:
     """The guidance law of one of `CASES`, with the inferred values for what is not printed."""
-    inferred = section["inferred"]
-    readings = inferred["readings"]
-    phases = [section["phases"][name] for name in PHASES]
-    share = CONE_SHARES[readings["cone_angle"]]
-    r1, r2 = inferred["keep_out_m"], inferred["overshoot_m"]
-    far, mid, final = (SWITCHES[name] for name in readings["switches"])
+    inferred = section.inferred
+    readings = inferred.readings
+    phases = [section.phases[name] for name in PHASES]
+    share = CONE_SHARES[readings.cone_angle]
+    r1, r2 = inferred.keep_out_m, inferred.overshoot_m
+    far, mid, final = (SWITCHES[name] for name in readings.switches)
     common = Law(
-        mean_motion=inferred["mean_motion_rad_s"],
-        sample_times=_triple(phases, "sample_time_s"),
-        horizons=_triple(phases, "horizon"),
-        state_weights=np.array([phase["state_weights"] for phase in phases], dtype=float),
-        control_weights=np.array([[phase["control_weight"]] * 3 for phase in phases], dtype=float),
+        mean_motion=inferred.mean_motion_rad_s,
+        sample_times=tuple(phase.sample_time_s for phase in phases),
+        horizons=tuple(phase.horizon for phase in phases),
+        state_weights=np.array([phase.state_weights for phase in phases], dtype=float),
+        control_weights=np.array([[phase.control_weight] * 3 for phase in phases], dtype=float),
         # The cone of the docking program is no penalty but a constraint (Section 3.3.1).
-        penalties=(phases[0]["penalty"], phases[1]["penalty"], 0.0),
-        cone_angles=tuple(share * np.radians(phase["cone_angle_deg"]) for phase in phases),
-        control_bounds=_triple(phases, "control_bound_m_s"),
+        penalties=(phases[0].penalty, phases[1].penalty, 0.0),
+        cone_angles=tuple(share * np.radians(phase.cone_angle_deg) for phase in phases),
+        control_bounds=tuple(phase.control_bound_m_s for phase in phases),
         keep_out=r1,
         overshoot=r2,
-        set_points=(inferred["set_point_1"] * r1, inferred["set_point_2"] * r2),
+        set_points=(inferred.set_point_1 * r1, inferred.set_point_2 * r2),
         switches=(far, mid, final),
         switch_distances=(
-            inferred["switch_1"] * r1,
-            inferred["switch_2"] * r2,
-            inferred["end_distance_m"],
+            inferred.switch_1 * r1,
+            inferred.switch_2 * r2,
+            inferred.end_distance_m,
         ),
-        speed_bound=inferred["speed_bound_m_s"],
+        speed_bound=inferred.speed_bound_m_s,
         axis=V_BAR,
-        port=float(np.linalg.norm(section["port_m"])),
-        plane_rate=inferred["plane_rate"],
-        plane_rule=PLANE_RULES[readings["plane_rule"]],
-        terminal_weights=(inferred["terminal_weight"],) * 3,
-        set_point_time=SET_POINT_TIMES[readings["set_point_time"]],
-        reference_moves=readings["reference_moves"],
+        port=float(np.linalg.norm(section.port_m)),
+        plane_rate=inferred.plane_rate,
+        plane_rule=PLANE_RULES[readings.plane_rule],
+        terminal_weights=(inferred.terminal_weight,) * 3,
+        set_point_time=SET_POINT_TIMES[readings.set_point_time],
+        reference_moves=readings.reference_moves,
     )
     if case == "r-bar":
-        return common.with_(axis=R_BAR[readings["r_bar"]])
+        return common.with_(axis=R_BAR[readings.r_bar])
     if case == "rotating":
-        return common.with_(rotation_rate=inferred["rotation_rate_rad_s"])
+        return common.with_(rotation_rate=inferred.rotation_rate_rad_s)
     if case == "no-set-point":
         return common.with_(set_points=(0.0, common.set_points[1]))
     if case == "lp":
-        lp, weights = inferred["lp"], common.state_weights[0]
+        lp, weights = inferred.lp, common.state_weights[0]
         return common.with_(
-            set_points=(lp["set_point"] * r1, common.set_points[1]),
-            norm_weights=lp["state_weight"] * weights,
-            norm_terminal_weights=lp["terminal_weight"] * weights,
-            norm_control_weights=np.full(3, lp["control_weight"]),
+            set_points=(lp.set_point * r1, common.set_points[1]),
+            norm_weights=lp.state_weight * weights,
+            norm_terminal_weights=lp.terminal_weight * weights,
+            norm_control_weights=np.full(3, lp.control_weight),
         )
     return common
 
 
-def check(section: Config) -> Config:
-    """Refuse what the schema cannot: zones that contradict each other or the start.
+def check(section: Configuration) -> None:
+    """Refuse what no type can: zones that contradict each other or the start.
 
     Raises
     ------
     InputError
         Naming the key, its value and what is allowed.
     """
-    inferred = section["inferred"]
-    r1, r2 = inferred["keep_out_m"], inferred["overshoot_m"]
-    distance = float(np.linalg.norm(section["start"]["position_m"]))
-    port = float(np.linalg.norm(section["port_m"]))
+    inferred = section.inferred
+    r1, r2 = inferred.keep_out_m, inferred.overshoot_m
+    distance = float(np.linalg.norm(section.start.position_m))
+    port = float(np.linalg.norm(section.port_m))
     if distance <= r1:
         raise InputError(
-            f"config key 'rendezvous.start.position_m': {section['start']['position_m']} lies "
+            f"config key 'rendezvous.start.position_m': {list(section.start.position_m)} lies "
             f"{distance:g} m from the target, inside the keep-out zone; must be farther than "
             f"{r1:g} m, or lower 'rendezvous.inferred.keep_out_m'"
         )
@@ -116,19 +114,17 @@ def check(section: Config) -> Config:
         )
     if port >= r2:
         raise InputError(
-            f"config key 'rendezvous.port_m': {section['port_m']} lies {port:g} m from the target; "
-            f"must be less than 'rendezvous.inferred.overshoot_m', {r2:g}"
+            f"config key 'rendezvous.port_m': {list(section.port_m)} lies {port:g} m from the "
+            f"target; must be less than 'rendezvous.inferred.overshoot_m', {r2:g}"
         )
-    _check_orbit(inferred["mean_motion_rad_s"])
+    _check_orbit(inferred.mean_motion_rad_s)
     _check_times(section)
-    _check_ranges(section)
-    truth = section["truth"]
-    if truth["gravity_order"] > truth["gravity_degree"]:
+    truth = section.truth
+    if truth.gravity_order > truth.gravity_degree:
         raise InputError(
-            f"config key 'rendezvous.truth.gravity_order': {truth['gravity_order']} is not "
-            f"allowed; must be at most 'gravity_degree', {truth['gravity_degree']}"
+            f"config key 'rendezvous.truth.gravity_order': {truth.gravity_order} is not "
+            f"allowed; must be at most 'gravity_degree', {truth.gravity_degree}"
         )
-    return section
 
 
 def _check_orbit(mean_motion: float) -> None:
@@ -141,64 +137,32 @@ def _check_orbit(mean_motion: float) -> None:
         )
 
 
-def _check_times(section: Config) -> None:
+def _check_times(section: Configuration) -> None:
     """Refuse steps that are longer than the manoeuvre, or too short for thrusters and delays."""
-    craft, studies = section["spacecraft"], section.get("studies")
-    for name in PHASES:
-        phase = section["phases"][name]
-        burn = phase["control_bound_m_s"] * craft["mass_kg"] / craft["thruster_N"]
-        if burn > phase["sample_time_s"]:
+    craft, studies = section.spacecraft, section.studies
+    sampled = {
+        f"studies.{name}.sample_times_s": studies[name].sample_times_s for name in STUDY_PHASES
+    }
+    for name, phase in section.phases:
+        burn = phase.control_bound_m_s * craft.mass_kg / craft.thruster_N
+        if burn > phase.sample_time_s:
             raise InputError(
                 f"config key 'rendezvous.phases.{name}.control_bound_m_s': "
-                f"{phase['control_bound_m_s']:g} is not allowed; {craft['thruster_N']:g} N on "
-                f"{craft['mass_kg']:g} kg burn {burn:.3g} s for it, longer than "
-                f"'sample_time_s', {phase['sample_time_s']:g}"
+                f"{phase.control_bound_m_s:g} is not allowed; {craft.thruster_N:g} N on "
+                f"{craft.mass_kg:g} kg burn {burn:.3g} s for it, longer than "
+                f"'sample_time_s', {phase.sample_time_s:g}"
             )
-    if studies is None:
-        return
-    limit = MINUTE * studies.get("time_limit_min", np.inf)
-    sampled = {
-        f"phases.{name}.sample_time_s": [section["phases"][name]["sample_time_s"]]
-        for name in PHASES
-    } | {f"studies.{name}.sample_times_s": studies[name]["sample_times_s"] for name in STUDY_PHASES}
+        sampled[f"phases.{name}.sample_time_s"] = (phase.sample_time_s,)
     for key, times in sampled.items():
-        if max(times) > limit:
+        if max(times) > MINUTE * studies.time_limit_min:
             raise InputError(
                 f"config key 'rendezvous.{key}': {max(times):g} is not allowed; must be at most "
-                f"'rendezvous.studies.time_limit_min', {limit / MINUTE:g}, in seconds"
+                f"'rendezvous.studies.time_limit_min', {studies.time_limit_min:g}, in seconds"
             )
-    shortest = min(section["phases"][name]["sample_time_s"] for name in PHASES)
-    longest = max(studies["delay"]["delays_s"])
+    shortest = min(phase.sample_time_s for _, phase in section.phases)
+    longest = max(studies.delay.delays_s)
     if longest > shortest:
         raise InputError(
             f"config key 'rendezvous.studies.delay.delays_s': {longest:g} is not allowed; must be "
             f"at most the shortest 'sample_time_s' of 'rendezvous.phases', {shortest:g}"
         )
-
-
-def _check_ranges(section: Config) -> None:
-    """Refuse bounds without a width, and lists of the studies that do not grow."""
-    for name, (low, high) in section.get("inference", {}).get("bounds", {}).items():
-        if low >= high:
-            raise InputError(
-                f"config key 'rendezvous.inference.bounds.{name}': [{low:g}, {high:g}] is no "
-                f"range; the first must be less than the second"
-            )
-    studies = section.get("studies")
-    if studies is None:
-        return
-    lists = {
-        f"{name}.{key}": studies[name][key]
-        for name in STUDY_PHASES
-        for key in ("horizons", "sample_times_s")
-    } | {f"passages.{key}": studies["passages"][key] for key in ("distances_m", "limits_min")}
-    for key, values in (lists | {"distance_km": studies["distance_km"]}).items():
-        if any(a >= b for a, b in pairwise(values)):
-            raise InputError(
-                f"config key 'rendezvous.studies.{key}': {values} is not allowed; must grow from "
-                f"value to value"
-            )
-
-
-def _triple(phases: list[Config], key: str) -> tuple:
-    return tuple(phase[key] for phase in phases)

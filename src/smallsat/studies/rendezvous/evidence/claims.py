@@ -14,6 +14,7 @@ from scipy.optimize import linprog
 from smallsat.dynamics.units import KM, MINUTE
 from smallsat.evidence.claims import Judgement, Outcome, judged
 from smallsat.evidence.grounds import Grounds
+from smallsat.studies.rendezvous.configuration import Configuration
 from smallsat.studies.rendezvous.evidence.case_tables import (
     CASE_TABLES,
     TOTAL,
@@ -66,9 +67,9 @@ def _range(series: Any, digits: int = 1) -> str:
     return f"{series.min():.{digits}f} to {series.max():.{digits}f}"
 
 
-def six_thrusters_move_in_six_degrees(grounds: Grounds) -> Judgement:
+def six_thrusters_move_in_six_degrees(grounds: Grounds[Configuration]) -> Judgement:
     """Thrusters only push: for every force and torque they must span six dimensions positively."""
-    count = grounds.config["rendezvous"]["spacecraft"]["thrusters"]
+    count = grounds.section.spacecraft.thrusters
     random = np.random.default_rng(0)
     reached = 0
     trials = 200
@@ -86,9 +87,9 @@ def six_thrusters_move_in_six_degrees(grounds: Grounds) -> Judgement:
     )
 
 
-def one_norm_is_sparser(grounds: Grounds) -> Judgement:
+def one_norm_is_sparser(grounds: Grounds[Configuration]) -> Judgement:
     """More of the far range's control components must be off with the LP than with the QP."""
-    bound = grounds.config["rendezvous"]["phases"]["far"]["control_bound_m_s"]
+    bound = grounds.section.phases.far.control_bound_m_s
     far = grounds.rows("flights.parquet", phase="far")
 
     def off(case: str) -> float:
@@ -117,9 +118,9 @@ def _largest(
     return float(own[list(places)].max().max())
 
 
-def keep_out_zone_is_kept(grounds: Grounds) -> Judgement:
+def keep_out_zone_is_kept(grounds: Grounds[Configuration]) -> Judgement:
     """The cases' far ranges are searched for their deepest passage, between samples too."""
-    keep_out = law(grounds.config["rendezvous"], "v-bar").keep_out
+    keep_out = law(grounds.section, "v-bar").keep_out
     linear = _largest(grounds, "keep out", "linear", "sample", "between")
     impulses = _largest(grounds, "keep out", "impulses", "sample", "between")
     burns = _largest(grounds, "keep out", "burns", "sample", "between")
@@ -240,10 +241,10 @@ def without_set_point_takes_longer(grounds: Grounds) -> Judgement:
     )
 
 
-def guided_around_the_zone(grounds: Grounds) -> Judgement:
+def guided_around_the_zone(grounds: Grounds[Configuration]) -> Judgement:
     """The angle that is flown near the zone is compared with and without set point."""
     paths = grounds.table("paths.parquet")
-    keep_out = law(grounds.config["rendezvous"], "v-bar").keep_out
+    keep_out = law(grounds.section, "v-bar").keep_out
 
     def turned_near(case: str) -> float:
         own = paths[(paths["flight"] == case) & (paths["phase"] == "far")]
@@ -319,14 +320,13 @@ def totals_add_up(grounds: Grounds) -> Judgement:
     )
 
 
-def times_are_whole_samples(grounds: Grounds) -> Judgement:
+def times_are_whole_samples(grounds: Grounds[Configuration]) -> Judgement:
     """The printed times must be whole numbers of samples, the far range's less a second."""
-    section = grounds.config["rendezvous"]
+    section = grounds.section
     cells = phase_cells(grounds.ledger)
     cells = cells[cells["phase"].isin(PHASES)]
     missing = {
-        (row["case"], row["phase"]): -row["time_s"]
-        % section["phases"][row["phase"]]["sample_time_s"]
+        (row["case"], row["phase"]): -row["time_s"] % section.phases[row["phase"]]["sample_time_s"]
         for row in cells.to_dict("records")
     }
     expected = {key: FIRST_SECOND if key[1] == "far" else 0.0 for key in missing}
@@ -343,15 +343,15 @@ def times_are_whole_samples(grounds: Grounds) -> Judgement:
     )
 
 
-def velocity_is_of_a_stable_ellipse(grounds: Grounds) -> Judgement:
+def velocity_is_of_a_stable_ellipse(grounds: Grounds[Configuration]) -> Judgement:
     """Vx = n y / 2 and vy = -2 n x: an interval of the mean motion from each rounded component."""
-    x, y, _, vx, vy, _ = start_state(grounds.config["rendezvous"])
+    x, y, _, vx, vy, _ = start_state(grounds.section)
     name = "table-3-2/chaser-velocity-in-cw-frame/all-cases/x"
     half = grounds.ledger.value(name).half_unit
     from_x = sorted(2.0 * (vx + sign * half) / y for sign in (-1, 1))
     from_y = sorted(-(vy + sign * half) / (2.0 * x) for sign in (-1, 1))
     low, high = max(from_x[0], from_y[0]), min(from_x[1], from_y[1])
-    ours = grounds.config["rendezvous"]["inferred"]["mean_motion_rad_s"]
+    ours = grounds.section.inferred.mean_motion_rad_s
     mu, radius = 398600.4418e9, 6378137.0
     heights = [((mu / n**2) ** (1 / 3) - radius) / KM for n in (high, low)]
     return judged(
@@ -361,10 +361,10 @@ def velocity_is_of_a_stable_ellipse(grounds: Grounds) -> Judgement:
     )
 
 
-def delta_v_is_no_sum_of_plane_lengths(grounds: Grounds) -> Judgement:
+def delta_v_is_no_sum_of_plane_lengths(grounds: Grounds[Configuration]) -> Judgement:
     """Printed far ranges are compared with what so many steps can give by the length of (x, y)."""
-    section = grounds.config["rendezvous"]
-    bound = section["phases"]["far"]["control_bound_m_s"]
+    section = grounds.section
+    bound = section.phases.far.control_bound_m_s
     steps = printed_steps(section, grounds.ledger)
     most = {case: steps[case, "far"] * np.sqrt(2.0) * bound for case in CASE_TABLES}
     printed = {case: _printed(grounds, case, "total-delta-v", "far") for case in CASE_TABLES}
@@ -399,9 +399,9 @@ def truth_changes_no_step_count(grounds: Grounds) -> Judgement:
     )
 
 
-def constraints_hold_between_samples(grounds: Grounds) -> Judgement:
+def constraints_hold_between_samples(grounds: Grounds[Configuration]) -> Judgement:
     """Bounds must hold at every sample, docking speed and cone between them unless softened."""
-    section = grounds.config["rendezvous"]
+    section = grounds.section
     flights, paths = grounds.table("flights.parquet"), grounds.table("paths.parquet")
     faces, axis = np.empty((4, 3)), np.empty(3)
     control, speed, cone = 0.0, 0.0, 0.0
@@ -433,9 +433,9 @@ def constraints_hold_between_samples(grounds: Grounds) -> Judgement:
     )
 
 
-def inference_is_underdetermined(grounds: Grounds) -> Judgement:
+def inference_is_underdetermined(grounds: Grounds[Configuration]) -> Judgement:
     """The acceptable sets must leave parameters open."""
-    section = grounds.config["rendezvous"]
+    section = grounds.section
     evaluated = grounds.table("inference.parquet")
     table = identified(section, evaluated)
     sets = acceptable(section, evaluated)

@@ -5,6 +5,7 @@ import numpy as np
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
 from smallsat.evidence.errata import Proof
 from smallsat.evidence.grounds import Grounds
+from smallsat.studies.rendezvous.configuration import Configuration
 from smallsat.studies.rendezvous.evidence.case_tables import CASE_TABLES
 from smallsat.studies.rendezvous.inference.search import printed_steps
 from smallsat.studies.rendezvous.model.geometry import cone_faces, rotated
@@ -15,11 +16,11 @@ from smallsat.studies.rendezvous.simulation.flights import STATE
 ROUNDING = 1e-9
 
 
-def control_bound_unit(grounds: Grounds) -> Proof:
+def control_bound_unit(grounds: Grounds[Configuration]) -> Proof:
     """Table 3.1: the bounds are impulses over mass; as accelerations they would end too soon."""
-    section = grounds.config["rendezvous"]
-    craft = section["spacecraft"]
-    push = craft["thruster_N"] / craft["mass_kg"]
+    section = grounds.section
+    craft = section.spacecraft
+    push = craft.thruster_N / craft.mass_kg
     bounds = [
         grounds.ledger.value(f"table-3-1/u-max/{phase}")
         for phase in ("far-range", "mid-range", "close-range")
@@ -31,7 +32,7 @@ def control_bound_unit(grounds: Grounds) -> Proof:
     )
     # Rest to rest over the printed start distance along one axis at full control: 2 sqrt(d / a).
     distance = float(np.linalg.norm(start_state(section)[:3]))
-    sample = section["phases"]["far"]["sample_time_s"]
+    sample = section.phases.far.sample_time_s
     steps = 2.0 * np.sqrt(distance / bounds[0].value) / sample
     impulse_steps = 2.0 * np.sqrt(distance * sample / bounds[0].value) / sample
     # The fewest steps of a far range to a target at rest.
@@ -41,7 +42,7 @@ def control_bound_unit(grounds: Grounds) -> Proof:
         whole and pulses[0] > 1.0 and steps < fewest / 2 < impulse_steps,
         f"{distance:.0f} m in {np.ceil(steps):.0f} far-range steps",
         f"in {np.ceil(impulse_steps):.0f} steps; printed are {fewest}",
-        f"A thruster of {craft['thruster_N']:g} N gives {craft['mass_kg']:g} kg at most "
+        f"A thruster of {craft.thruster_N:g} N gives {craft.mass_kg:g} kg at most "
         f"{push:.4f} m/s^2; the bounds are that times "
         f"{', '.join(f'{pulse:.2f}' for pulse in pulses)} s, whole seconds to the printed digits. "
         f"Held as accelerations they would bring the chaser over the start distance and to rest "
@@ -49,9 +50,9 @@ def control_bound_unit(grounds: Grounds) -> Proof:
     )
 
 
-def initial_distance(grounds: Grounds) -> Proof:
+def initial_distance(grounds: Grounds[Configuration]) -> Proof:
     """The distance of Section 3.6 is compared with the position in Table 3.2."""
-    distance = float(np.linalg.norm(start_state(grounds.config["rendezvous"])[:3])) / 1000.0
+    distance = float(np.linalg.norm(start_state(grounds.section)[:3])) / 1000.0
     printed = grounds.ledger.value("section-3-6/initial-chaser-distance/all-cases")
     return Proof(
         not printed.matches(distance),
@@ -62,33 +63,31 @@ def initial_distance(grounds: Grounds) -> Proof:
     )
 
 
-def thrust_as_delta_v(grounds: Grounds) -> Proof:
+def thrust_as_delta_v(grounds: Grounds[Configuration]) -> Proof:
     """Chapter 1: the printed bound holds for the thrust, and the delta-v has another unit."""
-    craft = grounds.config["rendezvous"]["spacecraft"]
-    bound = max(
-        phase["control_bound_m_s"] for phase in grounds.config["rendezvous"]["phases"].values()
-    )
-    seconds = bound * craft["mass_kg"] / craft["thruster_N"]
+    craft = grounds.section.spacecraft
+    bound = max(phase.control_bound_m_s for _, phase in grounds.section.phases)
+    seconds = bound * craft.mass_kg / craft.thruster_N
     name = "chapter-1/maximum-thrust-order-of-small-satellite-propulsion/background"
     printed = grounds.ledger.value(name)
     return Proof(
-        printed.matches(craft["thruster_N"]) and abs(seconds - 1.0) > 0.5,
+        printed.matches(craft.thruster_N) and abs(seconds - 1.0) > 0.5,
         "a delta-v in newtons",
-        f"a thrust: {craft['thruster_N']:g} N < {printed.value:g} N",
+        f"a thrust: {craft.thruster_N:g} N < {printed.value:g} N",
         f"Thrust and delta-v differ by a time over the mass: the largest delta-v of a step is "
-        f"{bound:g} m/s, {seconds:.0f} s of {craft['thruster_N']:g} N on {craft['mass_kg']:g} "
+        f"{bound:g} m/s, {seconds:.0f} s of {craft.thruster_N:g} N on {craft.mass_kg:g} "
         f"kg; Section 2.1.2 cites the same source for thrusts up to {printed.value:g} N",
     )
 
 
-def port_axis(grounds: Grounds) -> Proof:
+def port_axis(grounds: Grounds[Configuration]) -> Proof:
     """Table 3.2: the port's direction in the body against the approach axis of Case 1."""
-    section = grounds.config["rendezvous"]
-    port = np.array(section["port_m"], dtype=float)
+    section = grounds.section
+    port = np.array(section.port_m, dtype=float)
     axis = np.array(law(section, "v-bar").axis)
     cosine = port @ axis / np.linalg.norm(port) / np.linalg.norm(axis)
     angle = float(np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0))))
-    cone = section["phases"]["final"]["cone_angle_deg"]
+    cone = section.phases.final.cone_angle_deg
     return Proof(
         angle > cone,
         f"port and approach axis {angle:.0f} deg apart",
@@ -100,12 +99,12 @@ def port_axis(grounds: Grounds) -> Proof:
     )
 
 
-def on_time(grounds: Grounds) -> Proof:
+def on_time(grounds: Grounds[Configuration]) -> Proof:
     """Eq. 2.5: the impulse of the printed on-time against the one that was asked for."""
-    craft = grounds.config["rendezvous"]["spacecraft"]
-    phase = grounds.config["rendezvous"]["phases"]["far"]
+    craft = grounds.section.spacecraft
+    phase = grounds.section.phases.far
     sample, delta_v = phase["sample_time_s"], phase["control_bound_m_s"]
-    mass, thrust = craft["mass_kg"], craft["thruster_N"]
+    mass, thrust = craft.mass_kg, craft.thruster_N
     force = mass * delta_v / sample  # "F dt = m dv"
     printed, correct = force / thrust, force * sample / thrust
     return Proof(
@@ -119,9 +118,9 @@ def on_time(grounds: Grounds) -> Proof:
     )
 
 
-def last_state_twice(grounds: Grounds) -> Proof:
+def last_state_twice(grounds: Grounds[Configuration]) -> Proof:
     """Eq. 2.12: only the sum to N - 1 makes the Riccati weight stand for the infinite rest."""
-    section = grounds.config["rendezvous"]
+    section = grounds.section
     given = law(section, "v-bar")
     # The final phase, whose heavy control weight leaves much to do after its horizon.
     matrix = transition(rate_matrix(given.mean_motion), given.sample_times[2])
@@ -155,9 +154,9 @@ def printed_stage_cost(command: np.ndarray, weight: float) -> float:
     return float(np.abs(weight * command).sum())
 
 
-def quadratic_stage_cost(grounds: Grounds) -> Proof:
+def quadratic_stage_cost(grounds: Grounds[Configuration]) -> Proof:
     """Eq. 2.11b: a quadratic form has the same curvature everywhere, a norm none off its kinks."""
-    weight = grounds.config["rendezvous"]["phases"]["far"]["control_weight"]
+    weight = grounds.section.phases.far.control_weight
     command, direction = np.array([0.1, -0.2, 0.3]), np.array([0.5, 0.4, -0.7])
     step = 0.01
 
@@ -177,9 +176,9 @@ def quadratic_stage_cost(grounds: Grounds) -> Proof:
     )
 
 
-def docking_cone_apex(grounds: Grounds) -> Proof:
+def docking_cone_apex(grounds: Grounds[Configuration]) -> Proof:
     """Eqs. 3.12 and 3.14: a chaser at the port, over the horizon of the rotating case."""
-    section = grounds.config["rendezvous"]
+    section = grounds.section
     given = law(section, "rotating")
     axis, last, faces = np.empty(3), np.empty(3), np.empty((4, 3))
     tangent = np.tan(given.cone_angles[2])
@@ -208,9 +207,9 @@ def _places(grounds: Grounds, **columns: str) -> np.ndarray:
     return grounds.rows("flights.parquet", **columns)[STATE[:3]].to_numpy(dtype=float)
 
 
-def rendezvous_end_distance(grounds: Grounds) -> Proof:
+def rendezvous_end_distance(grounds: Grounds[Configuration]) -> Proof:
     """Algorithm 1: the end as printed never comes, for the keep-out constraint forbids it."""
-    keep_out = law(grounds.config["rendezvous"], "v-bar").keep_out
+    keep_out = law(grounds.section, "v-bar").keep_out
     far, mid = (_places(grounds, flight="v-bar", phase=phase) for phase in ("far", "mid"))
     distance, end = np.linalg.norm(far, axis=1), float(np.linalg.norm(mid[0]))
     never = bool((distance > keep_out - 1e-6 * keep_out).all() and end > keep_out)
@@ -224,11 +223,11 @@ def rendezvous_end_distance(grounds: Grounds) -> Proof:
     )
 
 
-def rendezvous_end_cone(grounds: Grounds) -> Proof:
+def rendezvous_end_cone(grounds: Grounds[Configuration]) -> Proof:
     """Algorithm 1: x <= Hx compares three entries with four; Hx <= 0 is the cone."""
-    section = grounds.config["rendezvous"]
+    section = grounds.section
     given = law(section, "v-bar")
-    faces = np.empty((section["cone_faces"], 3))
+    faces = np.empty((section.cone_faces, 3))
     cone_faces(np.array(given.axis), np.tan(given.cone_angles[0]), faces)
     end = _places(grounds, flight="v-bar", phase="mid")[0]
     start = start_state(section)[:3]
@@ -243,9 +242,9 @@ def rendezvous_end_cone(grounds: Grounds) -> Proof:
     )
 
 
-def approach_end_vector(grounds: Grounds) -> Proof:
+def approach_end_vector(grounds: Grounds[Configuration]) -> Proof:
     """Algorithm 1: x <= r2 by components is true far away, on the other side of the target."""
-    overshoot = law(grounds.config["rendezvous"], "v-bar").overshoot
+    overshoot = law(grounds.section, "v-bar").overshoot
     mid = grounds.rows("flights.parquet", phase="mid")
     mid = mid[mid["flight"].isin(CASE_TABLES)]
     # The motion is linear: mirrored at the target, a flight is one to a port on the other side.

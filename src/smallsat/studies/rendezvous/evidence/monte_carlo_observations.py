@@ -12,6 +12,7 @@ from smallsat.dynamics.units import MINUTE
 from smallsat.evidence.grounds import Grounds
 from smallsat.evidence.observation import Observation
 from smallsat.statistics.bootstrap import effect
+from smallsat.studies.rendezvous.configuration import Configuration
 from smallsat.studies.rendezvous.evidence.robustness_claims import mean_deviation
 from smallsat.studies.rendezvous.evidence.sweeps import (
     DELTA_V,
@@ -23,7 +24,7 @@ from smallsat.studies.rendezvous.evidence.sweeps import (
 from smallsat.studies.rendezvous.model.actuation_noise import readings_table
 from smallsat.studies.rendezvous.monte_carlo.cases import AS_DOCUMENTED
 from smallsat.studies.rendezvous.monte_carlo.tables import column
-from smallsat.studies.rendezvous.simulation.disturbances import thrust_noise, thrust_reading
+from smallsat.studies.rendezvous.simulation.disturbances import thrust_noise
 
 # Share of the document's sample from which our largest value bounds another sample's: failures
 # leave a few out. It was all of it until a first run was seen; no verdict changed.
@@ -171,7 +172,7 @@ def _axis(
     sweep: Sweep,
     samples: int,
     quantity: str,
-    times: list[float],
+    times: tuple[float, ...],
     tick: float,
     unit: float,
     name: str,
@@ -195,11 +196,11 @@ def _axis(
                       high=table[:, 2].max())  # fmt: skip
 
 
-def _thrust_error(grounds: Grounds) -> Iterator[Observation]:
+def _thrust_error(grounds: Grounds[Configuration]) -> Iterator[Observation]:
     """Steady deviation of Eq. 5.3; the reading that is flown comes last."""
-    section = grounds.config["rendezvous"]
-    readings = readings_table(thrust_noise(section)).set_index("reading")["steady_state_percent"]
-    flown = thrust_reading(section)
+    error = grounds.section.studies.robustness.thrust_error
+    readings = readings_table(thrust_noise(error)).set_index("reading")["steady_state_percent"]
+    flown = error.reading
     for reading in (*readings.index.drop(flown), flown):
         yield Observation(
             "rendezvous/section-5-1/1-sigma-thrust-amplitude-error-range",

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.dynamics.units import MINUTE
 from smallsat.evidence.not_converged import NotConverged
 from smallsat.evidence.observation import Observation
 from smallsat.results import read_table
+from smallsat.studies.rendezvous.configuration import Configuration
 from smallsat.studies.rendezvous.evidence.case_tables import (
     CASE_TABLES,
     COMPARED,
@@ -28,13 +28,13 @@ EXAMPLE_DELTA_V = 80.0
 FIRST_SECOND = 1.0
 
 
-def observations(section: Config, results: Path) -> list[Observation]:
+def observations(section: Configuration, results: Path) -> list[Observation]:
     """All observations, from the study's result tables."""
     return [*_example(section), *_cases(section, results)]
 
 
-def _example(section: Config) -> Iterator[Observation]:
-    mass = section["spacecraft"]["mass_kg"]
+def _example(section: Configuration) -> Iterator[Observation]:
+    mass = section.spacecraft.mass_kg
     share = 1.0 - np.exp(-EXAMPLE_DELTA_V / (EXAMPLE_IMPULSE_S * STANDARD_GRAVITY))
     where = "rendezvous/section-2-1-2/propellant"
     yield Observation(f"{where}-mass-needed-example", mass * share)
@@ -46,10 +46,10 @@ def _example(section: Config) -> Iterator[Observation]:
     )
 
 
-def case_cells(section: Config, results: Path) -> pd.DataFrame:
+def case_cells(section: Configuration, results: Path) -> pd.DataFrame:
     """Time, s, and delta-v, m/s, by case and phase, and in total; NaN where a phase did not end."""
     table = read_table(results / "phases.csv")
-    reading = section["inferred"]["readings"]["delta_v"]
+    reading = section.inferred.readings.delta_v
     rows = []
     for case, part in table.groupby("flight", sort=False):
         part = part.set_index("phase")
@@ -83,7 +83,7 @@ def undocked(results: Path) -> list[NotConverged]:
     return found
 
 
-def _cases(section: Config, results: Path) -> Iterator[Observation]:
+def _cases(section: Configuration, results: Path) -> Iterator[Observation]:
     cells: Any = case_cells(section, results).set_index(["case", "phase"])
     note = "with the inferred parameters"
     for case in CASE_TABLES:

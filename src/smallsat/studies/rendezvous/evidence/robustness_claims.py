@@ -12,6 +12,7 @@ from smallsat.evidence.effects import above, judgement, negative
 from smallsat.evidence.grounds import Grounds
 from smallsat.evidence.ledger import Ledger
 from smallsat.statistics.bootstrap import Effect, effect
+from smallsat.studies.rendezvous.configuration import Configuration
 from smallsat.studies.rendezvous.evidence.sweeps import (
     DELTA_V,
     TIME,
@@ -79,7 +80,7 @@ def increase_comes_from_docking(grounds: Grounds) -> Judgement:
         def share(drawn: np.ndarray, part=part, whole=whole) -> np.ndarray:
             return part[drawn].sum(axis=1) / whole[drawn].sum(axis=1)
 
-        found.append(effect(WORDS[quantity], share, len(whole), bootstrap(grounds.config), 2))
+        found.append(effect(WORDS[quantity], share, len(whole), bootstrap(grounds), 2))
     return judgement(above(found, 0.5), "share of docking in the increase, to be above half", found)
 
 
@@ -87,7 +88,7 @@ def chaser_bounces(grounds: Grounds) -> Judgement:
     """Section 5.4: time of docking against that without disturbances."""
     calm, noisy = _two(grounds, UNDISTURBED, AS_DOCUMENTED)
     ratio = (noisy["docking_time_s"] / calm["docking_time_s"]).to_numpy()
-    found = [effect("ratio", median(ratio), len(ratio), bootstrap(grounds.config))]
+    found = [effect("ratio", median(ratio), len(ratio), bootstrap(grounds))]
     return judgement(
         above(found, BOUNCING), "median ratio of docking times, to be above two", found
     )
@@ -96,7 +97,7 @@ def chaser_bounces(grounds: Grounds) -> Judgement:
 def guidance_is_robust(grounds: Grounds) -> Judgement:
     """Chapters 5 and 7: share of the disturbed manoeuvres that end within the limit."""
     done = by_state(grounds.table(ROBUSTNESS), AS_DOCUMENTED)["completed"].to_numpy()
-    found = [effect("share", mean(done), len(done), bootstrap(grounds.config))]
+    found = [effect("share", mean(done), len(done), bootstrap(grounds))]
     return judgement(above(found, ROBUST), "share that docks within the limit, to be 95 %", found)
 
 
@@ -105,8 +106,7 @@ def filter_reduces_bounce(grounds: Grounds) -> Judgement:
     raw, filtered = _two(grounds, AS_DOCUMENTED, FILTERED)
     changes = {q: median((filtered[q] / raw[q] - 1.0).to_numpy()) for q in (DELTA_V, TIME)}
     found = [
-        effect(WORDS[q], change, len(raw), bootstrap(grounds.config), 2)
-        for q, change in changes.items()
+        effect(WORDS[q], change, len(raw), bootstrap(grounds), 2) for q, change in changes.items()
     ]
     return judgement(
         above(negative(found), CONSIDERABLY),
@@ -118,13 +118,13 @@ def filter_reduces_bounce(grounds: Grounds) -> Judgement:
 def mean_deviation(grounds: Grounds, case: str, quantity: str) -> Effect:
     """Mean over the initial states of the standard deviation over runs, m/s or s."""
     found = by_state(grounds.table(ROBUSTNESS), case)[f"deviation_{quantity}"].to_numpy()
-    return effect(WORDS[quantity], mean(found), len(found), bootstrap(grounds.config))
+    return effect(WORDS[quantity], mean(found), len(found), bootstrap(grounds))
 
 
-def prediction_with_j2_helps(grounds: Grounds) -> Judgement:
+def prediction_with_j2_helps(grounds: Grounds[Configuration]) -> Judgement:
     """Section 3.7: delta-v with J2 in the prediction against without, over inclinations."""
     table = grounds.table("studies/prediction.parquet")
-    inclinations = grounds.config["rendezvous"]["studies"]["prediction"]["inclinations_deg"]
+    inclinations = grounds.section.studies.prediction.inclinations_deg
     found = []
     for inclination in inclinations:
         without, with_j2 = (
@@ -135,7 +135,7 @@ def prediction_with_j2_helps(grounds: Grounds) -> Judgement:
         a, b = (totals(rows[both], DELTA_V).to_numpy() for rows in (without, with_j2))
         name = f"delta-v, {inclination:g} deg"
         found.append(
-            effect(name, median(b / a - 1.0), len(a), bootstrap(grounds.config), len(inclinations))
+            effect(name, median(b / a - 1.0), len(a), bootstrap(grounds), len(inclinations))
         )
     return judgement(above(negative(found)), "median change, to be a drop", found)
 
@@ -149,14 +149,14 @@ def printed_deviations(ledger: Ledger) -> dict[str, float]:
     }
 
 
-def one_distance_gives_both_deviations(grounds: Grounds) -> Judgement:
+def one_distance_gives_both_deviations(grounds: Grounds[Configuration]) -> Judgement:
     """Our own: the docking distance that gives one printed deviation gives the other one too.
 
     At the document's time limit, between the distances of the passages; written after the first
     runs had been seen.
     """
     table = bounce(grounds.results / "studies")
-    limit = grounds.config["rendezvous"]["studies"]["time_limit_min"]
+    limit = grounds.section.studies.time_limit_min
     rows = table[table["time_limit_min"] == limit].set_index("end_distance_m")
     # Where the chaser docks in most runs the deviations fall with the distance.
     rows = rows[rows["docked_share"] > 0.5]

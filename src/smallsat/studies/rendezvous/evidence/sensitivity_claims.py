@@ -18,6 +18,7 @@ from smallsat.evidence.claims import Judgement, Outcome
 from smallsat.evidence.effects import above, below, judgement, negative, together, within
 from smallsat.evidence.grounds import Grounds
 from smallsat.statistics.bootstrap import Effect, Statistic
+from smallsat.studies.rendezvous.configuration import Configuration
 from smallsat.studies.rendezvous.evidence.sweeps import (
     DELTA_V,
     STEPS,
@@ -28,7 +29,6 @@ from smallsat.studies.rendezvous.evidence.sweeps import (
     infeasible_share,
     mean,
     median,
-    studies,
 )
 from smallsat.studies.rendezvous.monte_carlo.cases import PHASES
 from smallsat.studies.rendezvous.monte_carlo.tables import totals
@@ -221,23 +221,23 @@ def long_sampling_and_horizon_fail(grounds: Grounds) -> Judgement:
     return _rises([found], "slowest two sample times with the longer horizons less all other cases")
 
 
-def limit_is_ample(grounds: Grounds) -> Judgement:
+def limit_is_ample(grounds: Grounds[Configuration]) -> Judgement:
     """Section 4.2: mean time of a manoeuvre against the limit."""
     d = Domain(grounds)
-    limit = 60.0 * studies(grounds.config)["time_limit_min"]
+    limit = 60.0 * grounds.section.studies.time_limit_min
     found = [d.effect("share", mean(d.time / limit))]
     return judgement(
         below(found, 0.5), "mean time as a share of the limit, to be below half", found
     )
 
 
-def failures_stall_on_boundary(grounds: Grounds) -> Judgement:
+def failures_stall_on_boundary(grounds: Grounds[Configuration]) -> Judgement:
     """Section 4.2: share of the failures that end at rest on the keep-out sphere."""
     sweep = Sweep(grounds, "rendezvous")
     failed = sweep.table[~sweep.table["completed"]]
     if failed.empty:
         return Judgement("undecided", "no manoeuvre of the sweep fails")
-    radius = grounds.config["rendezvous"]["inferred"]["keep_out_m"]
+    radius = grounds.section.inferred.keep_out_m
     distance, speed = (
         np.linalg.norm(failed[[f"rendezvous_end_{name}" for name in names]].to_numpy(), axis=1)
         for names in (("x_m", "y_m", "z_m"), ("vx_m_s", "vy_m_s", "vz_m_s"))

@@ -5,9 +5,9 @@ from collections.abc import Callable
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.evidence.grounds import Grounds
 from smallsat.statistics.bootstrap import Bootstrap, Effect, Statistic, effect
+from smallsat.studies.rendezvous.configuration import Configuration
 from smallsat.studies.rendezvous.monte_carlo.cases import sweep_case
 from smallsat.studies.rendezvous.monte_carlo.tables import column, totals
 
@@ -17,14 +17,9 @@ WORDS = {DELTA_V: "delta-v", TIME: "time", STEPS: "actuations"}
 Case = tuple[int, float]
 
 
-def studies(config: Config) -> Config:
-    """The section of the studies."""
-    return config["rendezvous"]["studies"]
-
-
-def bootstrap(config: Config) -> Bootstrap:
+def bootstrap(grounds: Grounds[Configuration]) -> Bootstrap:
     """How intervals are drawn, from the configuration."""
-    return Bootstrap(**studies(config)["bootstrap"])
+    return Bootstrap(**dict(grounds.section.studies.bootstrap))
 
 
 def mean(values: np.ndarray) -> Statistic:
@@ -40,12 +35,13 @@ def median(values: np.ndarray) -> Statistic:
 class Sweep:
     """Results of one phase's sweep: a quantity of each case by initial state."""
 
-    def __init__(self, grounds: Grounds, phase: str):
+    def __init__(self, grounds: Grounds[Configuration], phase: str):
         self.phase = phase
-        self.horizons: list[int] = studies(grounds.config)[phase]["horizons"]
-        self.sample_times: list[float] = studies(grounds.config)[phase]["sample_times_s"]
+        sweep = grounds.section.studies[phase]
+        self.horizons: tuple[int, ...] = sweep.horizons
+        self.sample_times: tuple[float, ...] = sweep.sample_times_s
         self.table = grounds.table(f"studies/{phase}-sweep.parquet")
-        self.bootstrap = bootstrap(grounds.config)
+        self.bootstrap = bootstrap(grounds)
 
     def rows(self, horizon: int, sample_time: float) -> pd.DataFrame:
         """All manoeuvres of a case, by initial state."""
@@ -138,7 +134,7 @@ class Domain:
         distance = states["distance_m"].to_numpy()
         low, high = np.quantile(distance, [1 / 3, 2 / 3])
         self.near, self.far = distance <= low, distance >= high
-        self.bootstrap = bootstrap(grounds.config)
+        self.bootstrap = bootstrap(grounds)
 
     def effect(self, name: str, statistic: Statistic, count: int = 1) -> Effect:
         """A statistic over resampled initial states, one of ``count`` that hold together."""

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-from smallsat.config import Config
+from smallsat.studies.rendezvous.configuration import Flight
 from smallsat.studies.rendezvous.figures.cases import (
     CONE,
     INFERRED,
@@ -34,7 +34,7 @@ FRAME_S = {"far": 5.0, "mid": 2.0, "final": 1.5}
 
 
 def frames(
-    section: Config, case: str, flights: pd.DataFrame, paths: pd.DataFrame
+    section: Flight, case: str, flights: pd.DataFrame, paths: pd.DataFrame
 ) -> Iterator[bytes]:
     """RGBA pictures of a case, each of `SIZE` pixels."""
     law = law_of(section, case)

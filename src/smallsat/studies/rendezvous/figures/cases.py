@@ -7,9 +7,9 @@ from matplotlib.patches import Circle, Polygon
 from matplotlib.pyplot import figure as new_figure
 from matplotlib.pyplot import subplots
 
-from smallsat.config import Config
 from smallsat.drawing.figure import Drawing
 from smallsat.dynamics.units import MINUTE
+from smallsat.studies.rendezvous.configuration import Flight
 from smallsat.studies.rendezvous.guidance.law import PHASES
 from smallsat.studies.rendezvous.model.columns import CHANGE
 from smallsat.studies.rendezvous.parameters import law as law_of
@@ -51,7 +51,7 @@ def draw_cone(axes: Axes, axis, half_angle: float, tip: float, length: float, al
     )
 
 
-def manoeuvre(section: Config, case: str, flights: pd.DataFrame, paths: pd.DataFrame) -> Drawing:
+def manoeuvre(section: Flight, case: str, flights: pd.DataFrame, paths: pd.DataFrame) -> Drawing:
     """One case: the way in the orbit's plane at three scales, and the thrust over time."""
     law = law_of(section, case)
     flight = flights[flights["flight"] == case]
@@ -111,22 +111,22 @@ def manoeuvre(section: Config, case: str, flights: pd.DataFrame, paths: pd.DataF
     return figure, _drawn(path, pulses)
 
 
-def thrust_history(section: Config, flight: pd.DataFrame) -> pd.DataFrame:
+def thrust_history(section: Flight, flight: pd.DataFrame) -> pd.DataFrame:
     """Resultant thrust of each step, N, averaged over the longest pulse that its phase allows.
 
     Thrusters are on or off; a step's velocity change over the bound on it is the part of the
     longest pulse for which they burn.
     """
-    force = section["spacecraft"]["thruster_N"]
+    force = section.spacecraft.thruster_N
     rows = []
     for row in flight[flight["phase"] != "end"].to_dict("records"):
-        bound = section["phases"][row["phase"]]["control_bound_m_s"]
+        bound = section.phases[row["phase"]].control_bound_m_s
         length = np.linalg.norm([row[name] for name in CHANGE])
         rows.append((row["phase"], row["time_s"], force * length / bound))
     return pd.DataFrame(rows, columns=["phase", "time_s", "force_N"])
 
 
-def comparison(section: Config, flights: pd.DataFrame, paths: pd.DataFrame) -> Drawing:
+def comparison(section: Flight, flights: pd.DataFrame, paths: pd.DataFrame) -> Drawing:
     """Figure 3.6: the far range with and without set point, and as a linear program."""
     law = law_of(section, "v-bar")
     figure, (wide, near) = subplots(1, 2, figsize=(6.3, 3.5))

@@ -5,9 +5,9 @@ import pandas as pd
 from matplotlib.pyplot import subplots
 from matplotlib.ticker import NullFormatter
 
-from smallsat.config import Config
 from smallsat.drawing.figure import Drawing
-from smallsat.studies.rendezvous.inference.search import parameter_names
+from smallsat.studies.rendezvous.configuration import Cases
+from smallsat.studies.rendezvous.inference.search import FITTED
 
 TITLES = {
     "keep_out_m": "$r_1$ [m]",
@@ -44,18 +44,17 @@ def residuals(table: pd.DataFrame) -> Drawing:
     return figure, table
 
 
-def profiles(section: Config, evaluated: pd.DataFrame, table: pd.DataFrame) -> Drawing:
+def profiles(section: Cases, evaluated: pd.DataFrame, table: pd.DataFrame) -> Drawing:
     """Misfit of all evaluated sets over each parameter, and its lower envelope."""
-    names = parameter_names(section)
     figure, panels = subplots(3, 4, figsize=(6.3, 4.8), sharey=True)
-    limit = section["inference"]["acceptable"] * evaluated["misfit"].min()
-    rest = panels.flat[len(names) :]
-    for name, axes in zip(names, panels.flat, strict=False):
+    limit = section.inference.acceptable * evaluated["misfit"].min()
+    rest = panels.flat[len(FITTED) :]
+    for name, axes in zip(FITTED, panels.flat, strict=False):
         axes.plot(evaluated[name], evaluated["misfit"], ".", color="0.75", ms=1.5, rasterized=True)
         own = table[table["parameter"] == name]
         axes.plot(own["value"], own["misfit"], "o-", color="C0", ms=2.5, lw=0.9)
         axes.axhline(limit, color="C1", lw=0.8, ls="--")
-        axes.axvline(section["inferred"][name], color="C2", lw=0.9)
+        axes.axvline(section.inferred[name], color="C2", lw=0.9)
         axes.set_yscale("log")
         axes.set_xlabel(TITLES[name], fontsize=7, labelpad=1)
         axes.tick_params(labelsize=6)
@@ -69,7 +68,7 @@ def profiles(section: Config, evaluated: pd.DataFrame, table: pd.DataFrame) -> D
         axes.plot([], [], color="C1", ls="--", label="acceptable below")
         axes.plot([], [], color="C2", label="configured")
         axes.legend(loc="center", fontsize=7)
-    return figure, evaluated[[*names, "misfit"]]
+    return figure, evaluated[[*FITTED, "misfit"]]
 
 
 def readings(table: pd.DataFrame) -> Drawing:

@@ -8,10 +8,10 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.pyplot import subplots
 
-from smallsat.config import Config
 from smallsat.drawing.figure import Drawing
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
 from smallsat.dynamics.units import KM
+from smallsat.studies.rendezvous.configuration import Flight
 from smallsat.studies.rendezvous.figures.cases import (
     INFERRED,
     PHASE_COLOURS,
@@ -49,7 +49,7 @@ def predicted(
     return np.array(states), memory.plan
 
 
-def frame(section: Config) -> Drawing:
+def frame(section: Flight) -> Drawing:
     """Figure 2.1: the target's frame on its orbit, and the chaser at the start of the cases."""
     law = law_of(section, "v-bar")
     radius = orbit_radius(law.mean_motion)
@@ -97,7 +97,7 @@ def frame(section: Config) -> Drawing:
     return figure, pd.DataFrame(rows)
 
 
-def horizon(section: Config, flights: pd.DataFrame) -> Drawing:
+def horizon(section: Flight, flights: pd.DataFrame) -> Drawing:
     """Figure 2.2: past, plan and what was flown along the approach axis in Case 1's mid range."""
     law = law_of(section, "v-bar")
     own = flights[(flights["flight"] == "v-bar") & (flights["phase"] != "far")]
@@ -161,7 +161,7 @@ def _missing(words: str) -> Drawing:
     return figure, pd.DataFrame(columns=["drawn", "time_s", *STATE, *CHANGE])
 
 
-def phases(section: Config, flights: pd.DataFrame, paths: pd.DataFrame) -> Drawing:
+def phases(section: Flight, flights: pd.DataFrame, paths: pd.DataFrame) -> Drawing:
     """Figure 3.1: keep-out zone, approach cone, overshoot plane and docking cone, at two scales."""
     law = law_of(section, "v-bar")
     axis = np.array(law.axis)
@@ -221,7 +221,7 @@ def phases(section: Config, flights: pd.DataFrame, paths: pd.DataFrame) -> Drawi
     return figure, pd.DataFrame(rows, columns=["item", "value"])
 
 
-def rotating_planes(section: Config, flights: pd.DataFrame) -> Drawing:
+def rotating_planes(section: Flight, flights: pd.DataFrame) -> Drawing:
     """Figure 3.2: the planes of one horizon of the run that is guided around the zone."""
     law = law_of(section, "no-set-point")
     own = flights[(flights["flight"] == "no-set-point") & (flights["phase"] == "far")]

@@ -3,9 +3,11 @@
 from collections.abc import Mapping
 from typing import Any
 
-from smallsat.config import Config
+from smallsat.studies.rendezvous.configuration import Configuration
 
 
-def is_drawn(section: Config, notebook: str, what: Any, parameters: Mapping[str, Any]) -> bool:
+def is_drawn(
+    section: Configuration, notebook: str, what: Any, parameters: Mapping[str, Any]
+) -> bool:
     """Whether the configuration has what a figure shows."""
-    return notebook != "sweep" or what in section["studies"][parameters["phase"]]["horizons"]
+    return notebook != "sweep" or what in section.studies[parameters["phase"]].horizons

@@ -9,7 +9,6 @@ An inference explains what it was fitted to. Equal digits are no reproduction, a
 many parameters and readings as printed cells some agreement is to be had for nothing.
 """
 
-import copy
 from collections.abc import Sequence
 from typing import Any
 
@@ -17,9 +16,9 @@ import numpy as np
 import pandas as pd
 from scipy.optimize import differential_evolution
 
-from smallsat.config import Config
 from smallsat.dynamics.units import MINUTE
 from smallsat.evidence.ledger import Ledger
+from smallsat.studies.rendezvous.configuration import Bounds, Cases, Flight, Inference
 from smallsat.studies.rendezvous.evidence.case_tables import (
     CASE_TABLES,
     phase_cells,
@@ -38,6 +37,8 @@ from smallsat.studies.rendezvous.parameters import law, start_state
 from smallsat.studies.rendezvous.simulation.closed_loop import Steps, simulate
 from smallsat.studies.rendezvous.simulation.delta_v import READINGS, summed
 
+# Numbers that are fitted, in the order of their bounds.
+FITTED = list(Bounds.model_fields)
 FITTED_CASES = (*CASE_TABLES, "no-set-point")
 # Structural readings that the search chooses among, with the R-bar's side one a search.
 CHOICES: dict[str, tuple[Any, ...]] = {
@@ -53,37 +54,28 @@ NEAR = 0.03  # spread of the first sets around the configured one, in their boun
 WORST = 10.0  # largest residual of a cell, in its errors: a stall is no worse than a bad miss
 
 
-def parameter_names(section: Config) -> list[str]:
-    """Numbers that are fitted, in the order of their bounds in the configuration."""
-    return list(section["inference"]["bounds"])
-
-
-def with_values(section: Config, values: dict[str, float], readings: dict[str, Any]) -> Config:
+def with_values(section: Cases, values: dict[str, float], readings: dict[str, Any]) -> Cases:
     """The section with other inferred values and readings."""
-    changed = copy.deepcopy(section)
-    changed["inferred"].update({name: float(value) for name, value in values.items()})
-    chosen = dict(readings)
+    inferred, chosen = section.inferred, dict(readings)
     if "first_switch" in chosen:
-        switches = changed["inferred"]["readings"]["switches"]
-        changed["inferred"]["readings"]["switches"] = [chosen.pop("first_switch"), *switches[1:]]
-    changed["inferred"]["readings"].update(chosen)
-    return changed
+        chosen["switches"] = (chosen.pop("first_switch"), *inferred.readings.switches[1:])
+    changed = inferred.with_(**values, readings=inferred.readings.with_(**chosen))
+    return section.with_(inferred=changed)
 
 
-def printed_steps(section: Config, ledger: Ledger) -> dict[tuple[str, str], int]:
+def printed_steps(section: Flight, ledger: Ledger) -> dict[tuple[str, str], int]:
     """Whole steps of each phase that the printed times stand for (the far range less 1 s)."""
     cells = phase_cells(ledger)
     cells = cells[cells["phase"].isin(PHASES)]
     return {
         (row["case"], row["phase"]): round(
-            (row["time_s"] + (row["phase"] == "far"))
-            / section["phases"][row["phase"]]["sample_time_s"]
+            (row["time_s"] + (row["phase"] == "far")) / section.phases[row["phase"]].sample_time_s
         )
         for row in cells.to_dict("records")
     }
 
 
-def simulate_sets(sections: Sequence[Config], cases: Sequence[str] = FITTED_CASES) -> pd.DataFrame:
+def simulate_sets(sections: Sequence[Cases], cases: Sequence[str] = FITTED_CASES) -> pd.DataFrame:
     """Simulate cases with parameter sets: a row a set, case and phase.
 
     Columns: ``set`` (its place), ``case``, ``phase``, ``ended``, ``steps``, ``crossing`` (steps
@@ -141,13 +133,13 @@ def _excess(law: Law, phase: int, state: np.ndarray, time: float) -> float:
     return excess
 
 
-def residuals(section: Config, flown: pd.DataFrame, ledger: Ledger) -> pd.DataFrame:
+def residuals(section: Cases, flown: pd.DataFrame, ledger: Ledger) -> pd.DataFrame:
     """Residuals of every printed cell, in assumed errors: a row a set and cell, a column a reading.
 
     Columns: ``set``, ``cell``, ``printed``, then for each of `READINGS` computed (``computed <r>``)
     and residual (``residual <r>``).
     """
-    settings = section["inference"]
+    settings = section.inference
     wanted = printed_steps(section, ledger)
     delta_v: Any = phase_cells(ledger).set_index(["case", "phase"])["delta_v_m_s"].to_dict()
     totals: Any = total_cells(ledger).set_index("case").to_dict("index")
@@ -174,7 +166,7 @@ def residuals(section: Config, flown: pd.DataFrame, ledger: Ledger) -> pd.DataFr
             f"{key[0]} {key[1]} steps",
             wanted[key],
             dict.fromkeys(READINGS, wanted[key] + miss),
-            settings["step_error"],
+            settings.step_error,
         )
         # The whole number is what is shown.
         rows[-1] |= {f"computed {r}": row["steps"] if row["ended"] else np.nan for r in READINGS}
@@ -188,7 +180,7 @@ def residuals(section: Config, flown: pd.DataFrame, ledger: Ledger) -> pd.DataFr
         docked = bool(part["ended"].all())
         printed = totals[case]
         minutes = (part["time_s"].sum() - 1.0) / MINUTE if docked else np.nan
-        spread = settings["time_share"] * printed["time_min"]
+        spread = settings.time_share * printed["time_min"]
         add(
             int(place),
             f"{case} time",
@@ -207,36 +199,35 @@ def residuals(section: Config, flown: pd.DataFrame, ledger: Ledger) -> pd.DataFr
     return pd.DataFrame(rows)
 
 
-def _error(settings: Config, printed: float) -> float:
-    return max(settings["delta_v_share"] * printed, settings["delta_v_error_m_s"])
+def _error(settings: Inference, printed: float) -> float:
+    return max(settings.delta_v_share * printed, settings.delta_v_error_m_s)
 
 
-def misfits(section: Config, flown: pd.DataFrame, ledger: Ledger) -> pd.DataFrame:
+def misfits(section: Cases, flown: pd.DataFrame, ledger: Ledger) -> pd.DataFrame:
     """Sum of squared residuals by set (rows) and reading of delta-v (columns)."""
     table = residuals(section, flown, ledger)
     squares = {r: table[f"residual {r}"] ** 2 for r in READINGS}
     return pd.DataFrame(squares).groupby(table["set"]).sum()
 
 
-def search(section: Config, side: str, ledger: Ledger) -> pd.DataFrame:
+def search(section: Cases, side: str, ledger: Ledger) -> pd.DataFrame:
     """Search all parameters and readings with the R-bar on one side of the target.
 
     Differential evolution from a spread of sets, the configured one among them, then a chain of
     differential-evolution Monte Carlo from the best ones, which explores what is acceptable. Both
     are seeded, and a generation is one batch of the compiled loop. Returns a row an evaluated set.
     """
-    settings = section["inference"]
-    names = parameter_names(section)
-    low, high = np.array([settings["bounds"][name] for name in names], dtype=float).T
-    random = np.random.default_rng([settings["seed"], SIDES.index(side)])
+    settings = section.inference
+    low, high = np.array([settings.bounds[name] for name in FITTED], dtype=float).T
+    random = np.random.default_rng([settings.seed, SIDES.index(side)])
     kept: list[pd.DataFrame] = []
-    width = len(names)
+    width = len(FITTED)
 
     def decoded(place: np.ndarray) -> tuple[dict[str, float], dict[str, Any]]:
         values = low + np.clip(place[:width], 0.0, 1.0) * (high - low)
         picks = (np.clip(place[width:], 0.0, 1.0) * 1.999999).astype(int)
         readings = {key: CHOICES[key][pick] for key, pick in zip(CHOICES, picks, strict=True)}
-        return dict(zip(names, values.tolist(), strict=True)), {"r_bar": side, **readings}
+        return dict(zip(FITTED, values.tolist(), strict=True)), {"r_bar": side, **readings}
 
     def misfit(places: np.ndarray) -> np.ndarray:
         """Misfits (sets,) of a population, shape (parameters, sets) as the optimiser has it."""
@@ -250,19 +241,19 @@ def search(section: Config, side: str, ledger: Ledger) -> pd.DataFrame:
         kept.append(table.assign(**{f"misfit {r}": found[r].to_numpy() for r in READINGS}))
         return table["misfit"].to_numpy()
 
-    count = settings["population"]
+    count = settings.population
     start = random.random((count, width + len(CHOICES)))
-    configured = {name: section["inferred"][name] for name in names}
-    start[0, :width] = (np.array([configured[name] for name in names]) - low) / (high - low)
-    first = section["inferred"]["readings"]
-    now = {**first, "first_switch": first["switches"][0]}
+    configured = np.array([section.inferred[name] for name in FITTED])
+    start[0, :width] = (configured - low) / (high - low)
+    first = section.inferred.readings
+    now = dict(first) | {"first_switch": first.switches[0]}
     start[0, width:] = [0.25 + 0.5 * CHOICES[key].index(now[key]) for key in CHOICES]
     # Half of the population around the configured set, half all over the bounds.
     near = count // 2
     start[1:near] = start[0] + NEAR * random.standard_normal((near - 1, start.shape[1]))
     start = np.clip(start, 0.0, 1.0)
     found = differential_evolution(
-        misfit, [(0.0, 1.0)] * start.shape[1], init=start, maxiter=settings["generations"],
+        misfit, [(0.0, 1.0)] * start.shape[1], init=start, maxiter=settings.generations,
         seed=random, polish=False, vectorized=True, updating="deferred", tol=0.0,
         mutation=(0.4, 0.9), recombination=0.8,
     )  # fmt: skip
@@ -271,7 +262,7 @@ def search(section: Config, side: str, ledger: Ledger) -> pd.DataFrame:
         misfit,
         found.population,
         found.population_energies,
-        settings["chain"],
+        settings.chain,
         cells - width,
         random,
     )

@@ -6,14 +6,14 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.dynamics.units import MINUTE
 from smallsat.evidence.ledger import Ledger
+from smallsat.studies.rendezvous.configuration import Cases, LinearProgram
 from smallsat.studies.rendezvous.evidence.case_tables import total_cells
 from smallsat.studies.rendezvous.inference.search import (
     CHOICES,
+    FITTED,
     SIDES,
-    parameter_names,
     residuals,
     simulate_sets,
     with_values,
@@ -33,9 +33,9 @@ LP_CONTROL = (1e2, 1e3, 1e4)
 LP_TERMINAL = (1.0, 1e2, 1e4, 1e5)
 
 
-def configured_residuals(section: Config, ledger: Ledger) -> pd.DataFrame:
+def configured_residuals(section: Cases, ledger: Ledger) -> pd.DataFrame:
     """Residuals of every fitted cell with the configured set, one row a cell."""
-    reading = section["inferred"]["readings"]["delta_v"]
+    reading = section.inferred.readings.delta_v
     table = residuals(section, simulate_sets([section]), ledger)
     return pd.DataFrame(
         {
@@ -47,29 +47,28 @@ def configured_residuals(section: Config, ledger: Ledger) -> pd.DataFrame:
     )
 
 
-def acceptable(section: Config, evaluated: pd.DataFrame) -> pd.DataFrame:
+def acceptable(section: Cases, evaluated: pd.DataFrame) -> pd.DataFrame:
     """Evaluated sets whose misfit is within the configured factor of the best one, best first."""
-    limit = section["inference"]["acceptable"] * evaluated["misfit"].min()
+    limit = section.inference.acceptable * evaluated["misfit"].min()
     chosen = evaluated[evaluated["misfit"] <= limit].drop_duplicates()
     return chosen.sort_values("misfit", kind="stable", ignore_index=True)
 
 
-def identified(section: Config, evaluated: pd.DataFrame) -> pd.DataFrame:
+def identified(section: Cases, evaluated: pd.DataFrame) -> pd.DataFrame:
     """For each parameter: bounds, configured value, acceptable range, and what that makes of it.
 
     ``share`` is the part of the bounds that acceptable values span; ``with`` names the parameter
     that it goes together with most, and ``correlation`` how closely (Spearman's).
     """
-    names = parameter_names(section)
     good = acceptable(section, evaluated)
     ranks = (
-        good[names].rank().corr()
+        good[FITTED].rank().corr()
         if len(good) > 2
-        else pd.DataFrame(np.eye(len(names)), names, names)
+        else pd.DataFrame(np.eye(len(FITTED)), FITTED, FITTED)
     )
     rows = []
-    for name in names:
-        low, high = section["inference"]["bounds"][name]
+    for name in FITTED:
+        low, high = section.inference.bounds[name]
         least, most = good[name].min(), good[name].max()
         share = (most - least) / (high - low)
         others = ranks[name].drop(name).abs().fillna(0.0)
@@ -86,7 +85,7 @@ def identified(section: Config, evaluated: pd.DataFrame) -> pd.DataFrame:
                 "parameter": name,
                 "from": low,
                 "to": high,
-                "inferred": section["inferred"][name],
+                "inferred": section.inferred[name],
                 "acceptable_from": least,
                 "acceptable_to": most,
                 "share": share,
@@ -98,11 +97,11 @@ def identified(section: Config, evaluated: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def profiles(section: Config, evaluated: pd.DataFrame) -> pd.DataFrame:
+def profiles(section: Cases, evaluated: pd.DataFrame) -> pd.DataFrame:
     """Least misfit found in each of `BINS` parts of each parameter's bounds."""
     rows = []
-    for name in parameter_names(section):
-        low, high = section["inference"]["bounds"][name]
+    for name in FITTED:
+        low, high = section.inference.bounds[name]
         place = np.clip(((evaluated[name] - low) / (high - low) * BINS).astype(int), 0, BINS - 1)
         least = evaluated.groupby(place)["misfit"].min()
         for part in range(BINS):
@@ -143,19 +142,18 @@ def readings(evaluated: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def ensemble(section: Config, evaluated: pd.DataFrame) -> pd.DataFrame:
+def ensemble(section: Cases, evaluated: pd.DataFrame) -> pd.DataFrame:
     """All five cases with acceptable sets spread over their misfits; a row a set, case, phase.
 
     Delta-v is summed by each set's own best reading, in column ``delta_v_m_s``.
     """
     good = acceptable(section, evaluated)
-    count = min(section["inference"]["flown"], len(good))
+    count = min(section.inference.flown, len(good))
     chosen = good.iloc[np.unique(np.linspace(0, len(good) - 1, count).astype(int))]
-    names = parameter_names(section)
     sections = []
     for row in chosen.to_dict("records"):
         structure = {"r_bar": row["side"], **{key: row[key] for key in CHOICES}}
-        sections.append(with_values(section, {name: row[name] for name in names}, structure))
+        sections.append(with_values(section, {name: row[name] for name in FITTED}, structure))
     flown = simulate_sets(sections, CASES)
     best = chosen["delta_v"].to_list()
     flown["delta_v_m_s"] = [row[best[row["set"]]] for row in flown.to_dict("records")]
@@ -163,22 +161,18 @@ def ensemble(section: Config, evaluated: pd.DataFrame) -> pd.DataFrame:
     return flown[["set", "misfit", "case", "phase", "ended", "steps", "time_s", "delta_v_m_s"]]
 
 
-def linear_programs(section: Config, ledger: Ledger) -> pd.DataFrame:
+def linear_programs(section: Cases, ledger: Ledger) -> pd.DataFrame:
     """The LP case with many weights, with and without set point: one row a variant."""
-    sections: list[Config] = []
+    sections: list[Cases] = []
     rows: list[dict[str, Any]] = []
     for point, control, terminal in product(LP_SET_POINTS, LP_CONTROL, LP_TERMINAL):
-        changed = with_values(section, {}, {})
-        changed["inferred"]["lp"] = {
-            "set_point": point,
-            "state_weight": 1.0,
-            "control_weight": control,
-            "terminal_weight": terminal,
-        }
-        sections.append(changed)
+        lp = LinearProgram(
+            set_point=point, state_weight=1.0, control_weight=control, terminal_weight=terminal
+        )
+        sections.append(section.with_(inferred=section.inferred.with_(lp=lp)))
         rows.append({"set_point": point, "control_weight": control, "terminal_weight": terminal})
     flown = simulate_sets(sections, ("lp",))
-    reading = section["inferred"]["readings"]["delta_v"]
+    reading = section.inferred.readings.delta_v
     printed: Any = total_cells(ledger).set_index("case").loc["lp"]
     groups: Any = flown.groupby("set")
     for place, part in groups:

@@ -7,8 +7,8 @@ pieces, in the linear model or in the full one, with impulses or with burns.
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
+from smallsat.studies.rendezvous.configuration import Flight
 from smallsat.studies.rendezvous.guidance.controller import memory_for, next_control, phase_ended
 from smallsat.studies.rendezvous.guidance.law import APPROACH, PHASES, RENDEZVOUS, Law, settings
 from smallsat.studies.rendezvous.model.geometry import cone_faces
@@ -104,13 +104,13 @@ def follow(law: Law, start: np.ndarray, motion: NonlinearMotion | None = None) -
     return pd.DataFrame(rows, columns=["phase", "constraint", "place", "violation"])
 
 
-def table(section: Config, laws: dict[str, Law], start: np.ndarray) -> pd.DataFrame:
+def table(section: Flight, laws: dict[str, Law], start: np.ndarray) -> pd.DataFrame:
     """Largest violation of each constraint by flight, motion and place.
 
     Parameters
     ----------
     section
-        The configuration's ``rendezvous`` section, for truth and spacecraft.
+        For its truth and spacecraft.
     laws
         By name.
     start

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from smallsat.config import Config
 from smallsat.dynamics.environment import egm96
 from smallsat.dynamics.environment.spherical_harmonics import terms
 from smallsat.dynamics.environment.torques import ATMOSPHERE, density
 from smallsat.dynamics.orbits.kepler_orbits import Elements, state_of
 from smallsat.dynamics.units import KM
+from smallsat.studies.rendezvous.configuration import Truth
 from smallsat.studies.rendezvous.model.truth import Environment
 
 # The Earth's rate, rad/s: its field and its air turn with it.
@@ -19,7 +19,7 @@ def orbit_radius(mean_motion: float) -> float:
     return float((egm96.MU / mean_motion**2) ** (1 / 3))
 
 
-def target_state(settings: Config, mean_motion: float) -> np.ndarray:
+def target_state(settings: Truth, mean_motion: float) -> np.ndarray:
     """Inertial position, m, and velocity, m/s, of the target at time zero, shape (6,).
 
     The elements are osculating: the orbit is circular in the central field alone, and the other
@@ -28,31 +28,32 @@ def target_state(settings: Config, mean_motion: float) -> np.ndarray:
     Parameters
     ----------
     settings
-        The configuration's ``rendezvous.truth``.
+        What the configuration says of the truth.
     mean_motion
         Mean motion of the target, rad/s.
     """
     angles = np.radians(
-        [settings["inclination_deg"], settings["raan_deg"], settings["argument_of_latitude_deg"]]
+        [settings.inclination_deg, settings.raan_deg, settings.argument_of_latitude_deg]
     )
     elements = Elements(orbit_radius(mean_motion), 0.0, angles[0], angles[1], 0.0, angles[2])
     return np.concatenate(state_of(elements, egm96.MU))
 
 
-def box(settings: Config) -> np.ndarray:
+def box(settings: Truth) -> np.ndarray:
     """Panels of a body, shape (6, 4): area, m^2, and outward normal, by the body's axes."""
-    x, y, z = (settings["body_size_m"][axis] for axis in ("radial", "along", "normal"))
+    size = settings.body_size_m
+    x, y, z = size.radial, size.along, size.normal
     faces = np.column_stack([[y * z, x * z, x * y], np.eye(3)])
     return np.vstack([faces, faces * [1, -1, -1, -1]])
 
 
-def environment(settings: Config, mean_motion: float, mass: float) -> Environment:
+def environment(settings: Truth, mean_motion: float, mass: float) -> Environment:
     """Gravity, air and bodies for `smallsat.studies.rendezvous.model.truth`.
 
     Parameters
     ----------
     settings
-        The configuration's ``rendezvous.truth``.
+        What the configuration says of the truth.
     mean_motion
         Mean motion of the target, rad/s: gives the height for the air's density.
     mass
@@ -65,18 +66,18 @@ def environment(settings: Config, mean_motion: float, mass: float) -> Environmen
     radius = orbit_radius(mean_motion)
     altitude = radius - egm96.RADIUS
     row = int(np.searchsorted(ATMOSPHERE[:, 0] * KM, altitude, side="right")) - 1
-    coefficient = settings["drag_coefficient"]
+    coefficient = settings.drag_coefficient
     panels = box(settings)
     return Environment(
         mu=egm96.MU,
         radius=egm96.RADIUS,
-        gravity=terms(egm96.COEFFICIENTS, settings["gravity_degree"], settings["gravity_order"]),
+        gravity=terms(egm96.COEFFICIENTS, settings.gravity_degree, settings.gravity_order),
         earth_rate=EARTH_RATE,
-        earth_angle=float(np.radians(settings["earth_angle_deg"])),
-        density=float(settings["density_factor"] * density(altitude, ATMOSPHERE)),
+        earth_angle=float(np.radians(settings.earth_angle_deg)),
+        density=float(settings.density_factor * density(altitude, ATMOSPHERE)),
         density_radius=radius,
         scale_height=float(ATMOSPHERE[max(row, 0), 2] * KM),
         panels=np.stack([panels, panels]),
-        drag=np.array([coefficient["target"], coefficient["chaser"]]) / mass,
-        step=float(settings["step_s"]),
+        drag=np.array([coefficient.target, coefficient.chaser]) / mass,
+        step=settings.step_s,
     )

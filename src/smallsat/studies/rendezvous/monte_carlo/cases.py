@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from smallsat.config import Config
 from smallsat.dynamics.units import MINUTE
+from smallsat.studies.rendezvous.configuration import MonteCarlo
 from smallsat.studies.rendezvous.guidance.law import Law
 from smallsat.studies.rendezvous.model.environment import orbit_radius
 from smallsat.studies.rendezvous.model.prediction_j2 import schweighart_sedwick
@@ -76,9 +76,9 @@ def prediction_case(model: str, inclination: float) -> str:
     return f"{model}, {inclination:g} deg"
 
 
-def base(section: Config, case: str = "v-bar") -> Law:
+def base(section: MonteCarlo, case: str = "v-bar") -> Law:
     """The law of a case of chapter 3 with the time limit of the studies."""
-    limit = MINUTE * section["studies"]["time_limit_min"]
+    limit = MINUTE * section.studies.time_limit_min
     return law(section, case).with_(time_limit=limit)
 
 
@@ -97,7 +97,7 @@ def _weighted(law: Law, phase: int, factor: float) -> Law:
     return law.with_(control_weights=weights)
 
 
-def _domain(section: Config) -> list[Case]:
+def _domain(section: MonteCarlo) -> list[Case]:
     """Section 4.1 and the appendix: the whole manoeuvre, and two other far-range costs."""
     return [
         Case(BASELINE, base(section)),
@@ -106,11 +106,11 @@ def _domain(section: Config) -> list[Case]:
     ]
 
 
-def _sweep(phase: int) -> Callable[[Config], list[Case]]:
+def _sweep(phase: int) -> Callable[[MonteCarlo], list[Case]]:
     """Sections 4.2 to 4.4: horizons and sample times of one phase, that phase alone."""
 
-    def make(section: Config) -> list[Case]:
-        law, settings = base(section), section["studies"][PHASES[phase]]
+    def make(section: MonteCarlo) -> list[Case]:
+        law, sweep = base(section), section.studies[PHASES[phase]]
         return [
             Case(
                 sweep_case(horizon, sample_time),
@@ -119,17 +119,17 @@ def _sweep(phase: int) -> Callable[[Config], list[Case]]:
                 ),
                 (phase, phase),
             )
-            for horizon in settings["horizons"]
-            for sample_time in settings["sample_times_s"]
+            for horizon in sweep.horizons
+            for sample_time in sweep.sample_times_s
         ]
 
     return make
 
 
-def _weights(section: Config) -> list[Case]:
+def _weights(section: MonteCarlo) -> list[Case]:
     """Section 4.5: other weights of the control, and whether sample times then compare alike."""
-    law, factors = base(section), section["studies"]["weights"]["factors"]
-    times = section["studies"]["rendezvous"]["sample_times_s"]
+    law, factors = base(section), section.studies.weights.factors
+    times = section.studies.rendezvous.sample_times_s
     whole = [
         Case(weight_case(factor, name), _weighted(law, phase, factor))
         for phase, name in enumerate(PHASES)
@@ -147,22 +147,22 @@ def _weights(section: Config) -> list[Case]:
     return whole + sampled
 
 
-def _delay(section: Config) -> list[Case]:
+def _delay(section: MonteCarlo) -> list[Case]:
     """Section 5.5: the control acts late, known to the prediction or not."""
     law = base(section)
     return [
         Case(delay_case(delay, known), law.with_(delay=float(delay), delay_known=known))
-        for delay in section["studies"]["delay"]["delays_s"]
+        for delay in section.studies.delay.delays_s
         for known in (False, True)
     ]
 
 
-def _prediction(section: Config) -> list[Case]:
+def _prediction(section: MonteCarlo) -> list[Case]:
     """Section 3.7: J2 in the prediction, over inclinations, in the field of degree 8."""
     law, found = base(section), list[Case]()
     n, radius = law.mean_motion, orbit_radius(law.mean_motion)
-    for inclination in section["studies"]["prediction"]["inclinations_deg"]:
-        tilted = section | {"truth": section["truth"] | {"inclination_deg": inclination}}
+    for inclination in section.studies.prediction.inclinations_deg:
+        tilted = section.with_(truth=section.truth.with_(inclination_deg=inclination))
         motion = disturbed_motion(tilted, law, thrust_error=False, measurement_error=False)
         matrix = schweighart_sedwick(n, float(np.radians(inclination)), radius)
         for model, prediction in ((CLOHESSY_WILTSHIRE, None), (SCHWEIGHART_SEDWICK, matrix)):
@@ -171,13 +171,13 @@ def _prediction(section: Config) -> list[Case]:
     return found
 
 
-def _robustness(section: Config) -> list[Case]:
+def _robustness(section: MonteCarlo) -> list[Case]:
     """Chapter 5, and with its disturbances one by one or with a filter."""
-    law, table = base(section), section["studies"]["robustness"]
-    few = table["variant_runs"]
+    law, table = base(section), section.studies.robustness
+    few = table.variant_runs
     variants: dict[str, tuple[int, dict[str, bool]]] = {
         UNDISTURBED: (1, {"thrust_error": False, "measurement_error": False}),
-        AS_DOCUMENTED: (table["runs"], {}),
+        AS_DOCUMENTED: (table.runs, {}),
         "thrust error alone": (few, {"measurement_error": False}),
         "measurement error alone": (few, {"thrust_error": False}),
         FILTERED: (few, {"filtered": True}),
@@ -189,20 +189,20 @@ def _robustness(section: Config) -> list[Case]:
     ]
 
 
-def _passages(section: Config) -> list[Case]:
+def _passages(section: MonteCarlo) -> list[Case]:
     """What the docking distance and the time limit decide: the closest and the longest of them."""
-    settings = section["studies"]["passages"]
+    settings = section.studies.passages
     law = base(section)
     farthest = law.with_(
-        switch_distances=in_phase(law.switch_distances, 2, min(settings["distances_m"])),
-        time_limit=MINUTE * max(settings["limits_min"]),
+        switch_distances=in_phase(law.switch_distances, 2, min(settings.distances_m)),
+        time_limit=MINUTE * max(settings.limits_min),
     )
     motion = disturbed_motion(section, farthest)
-    return [Case("passages", farthest, motion=motion, runs=settings["runs"])]
+    return [Case("passages", farthest, motion=motion, runs=settings.runs)]
 
 
 # Each group is one table of results, made in shards.
-GROUPS: dict[str, Callable[[Config], list[Case]]] = {
+GROUPS: dict[str, Callable[[MonteCarlo], list[Case]]] = {
     "domain": _domain,
     "rendezvous-sweep": _sweep(0),
     "approach-sweep": _sweep(1),
@@ -215,6 +215,6 @@ GROUPS: dict[str, Callable[[Config], list[Case]]] = {
 }
 
 
-def cases(section: Config, group: str) -> list[Case]:
+def cases(section: MonteCarlo, group: str) -> list[Case]:
     """The cases of a group, in the order of its results."""
     return GROUPS[group](section)

@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.statistics.random_streams import stream
+from smallsat.studies.rendezvous.configuration import Flown, MonteCarlo
 from smallsat.studies.rendezvous.model.columns import STATE
 from smallsat.studies.rendezvous.monte_carlo.cases import base
 
@@ -80,16 +80,15 @@ def quadrant(states: np.ndarray) -> np.ndarray:
     return np.minimum((angle // (0.5 * np.pi)).astype(int), 3) + 1
 
 
-def distribution(section: Config) -> Distribution:
-    """The distribution that the configuration's ``studies`` describe."""
-    settings = section["studies"]
-    nearest, farthest = (1e3 * distance for distance in settings["distance_km"])
-    return Distribution(nearest, farthest, settings["velocity_deviation_m_s"], IN_PLANE)
+def distribution(studies: Flown) -> Distribution:
+    """The distribution that the configuration describes."""
+    nearest, farthest = (1e3 * distance for distance in studies.distance_km)
+    return Distribution(nearest, farthest, studies.velocity_deviation_m_s, IN_PLANE)
 
 
-def states_table(section: Config, count: int, seed: int) -> pd.DataFrame:
+def states_table(section: MonteCarlo, count: int, seed: int) -> pd.DataFrame:
     """Initial states of a study, one a row, with distance, m, and quadrant."""
-    drawn = initial_states(count, seed, distribution(section), base(section).mean_motion)
+    drawn = initial_states(count, seed, distribution(section.studies), base(section).mean_motion)
     table = pd.DataFrame({"sample": np.arange(count, dtype=np.int32)})
     table[STATE] = drawn
     table["distance_m"] = np.linalg.norm(drawn[:, :3], axis=1)

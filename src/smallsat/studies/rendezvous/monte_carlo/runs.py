@@ -7,9 +7,9 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.dynamics.units import MINUTE
 from smallsat.statistics.random_streams import stream
+from smallsat.studies.rendezvous.configuration import MonteCarlo
 from smallsat.studies.rendezvous.model.columns import STATE
 from smallsat.studies.rendezvous.monte_carlo.cases import PHASES, Case
 from smallsat.studies.rendezvous.monte_carlo.tables import (
@@ -41,14 +41,14 @@ READINGS = {
 
 
 def simulate_cases(
-    section: Config, cases: Sequence[Case], starts: Sequence[pd.DataFrame]
+    section: MonteCarlo, cases: Sequence[Case], starts: Sequence[pd.DataFrame]
 ) -> pd.DataFrame:
     """Simulate every case from its starts; progress goes to the standard error stream.
 
     Parameters
     ----------
     section
-        The configuration's ``rendezvous``.
+        What manoeuvres depend on.
     cases
         The cases of a group.
     starts
@@ -73,15 +73,15 @@ def simulate_cases(
             rows["case"][:] = case.name
             rows["sample"][:] = chunk["sample"]
             rows["run"][:] = chunk["run"]
-            fill(rows, found, READINGS[section["inferred"]["readings"]["delta_v"]][1])
+            fill(rows, found, READINGS[section.inferred.readings.delta_v][1])
             parts.append(pd.DataFrame(rows)[SCHEMA.names])
     return pd.concat(parts, ignore_index=True).astype(parts[0].dtypes)
 
 
-def simulate_passages(section: Config, case: Case, starts: pd.DataFrame) -> pd.DataFrame:
+def simulate_passages(section: MonteCarlo, case: Case, starts: pd.DataFrame) -> pd.DataFrame:
     """Simulate one case and read off what it is with each docking distance and time limit."""
-    settings = section["studies"]["passages"]
-    distances, limits = settings["distances_m"], settings["limits_min"]
+    settings = section.studies.passages
+    distances, limits = settings.distances_m, settings.limits_min
     parts = [_outcomes(np.empty((0, 8)))]
     for chunk in _chunks(starts, case.name):
         passed = simulate(
@@ -92,7 +92,7 @@ def simulate_passages(section: Config, case: Case, starts: pd.DataFrame) -> pd.D
             generators(section, chunk),
             distances=distances,
             limits=[MINUTE * limit for limit in limits],
-            reading=READINGS[section["inferred"]["readings"]["delta_v"]][0],
+            reading=READINGS[section.inferred.readings.delta_v][0],
         ).passages
         rows = []
         for m in range(len(chunk)):
@@ -112,9 +112,9 @@ def simulate_passages(section: Config, case: Case, starts: pd.DataFrame) -> pd.D
     return pd.concat(parts, ignore_index=True).astype(parts[0].dtypes)
 
 
-def generators(section: Config, starts: pd.DataFrame) -> list[np.random.Generator]:
+def generators(section: MonteCarlo, starts: pd.DataFrame) -> list[np.random.Generator]:
     """Random stream of each manoeuvre, by its state and run alone."""
-    seed = section["studies"]["robustness"]["seed"]
+    seed = section.studies.robustness.seed
     # The initial states themselves are drawn with the seed as it is.
     return [
         stream(seed, (sample + 1) * RUNS + run)

@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.dynamics.units import MINUTE
 from smallsat.results import read_table
+from smallsat.studies.rendezvous.configuration import MonteCarlo
 from smallsat.studies.rendezvous.monte_carlo.cases import (
     BASELINE,
     CLOHESSY_WILTSHIRE,
@@ -27,7 +27,7 @@ QUANTILES = {"low": 0.05, "median": 0.5, "high": 0.95}
 QUANTITIES = {"delta_v": "delta_v_m_s", "time": "time_s"}
 
 
-def variants(section: Config, folder: Path) -> pd.DataFrame:
+def variants(section: MonteCarlo, folder: Path) -> pd.DataFrame:
     """Change that each variant makes, over initial states: median, 5 and 95 % quantile, per cent.
 
     A state's value is the mean of its runs; ``completed_pct`` counts all runs of the variant. Only
@@ -52,10 +52,10 @@ def variants(section: Config, folder: Path) -> pd.DataFrame:
 
 
 def _compared(
-    section: Config, folder: Path
+    section: MonteCarlo, folder: Path
 ) -> Iterator[tuple[str, str, pd.DataFrame, pd.DataFrame]]:
     """Topic, name, rows of the reference and rows of the variant."""
-    studies = section["studies"]
+    studies = section.studies
     groups = ("domain", "rendezvous-sweep", "weights", "delay", "prediction", "robustness")
     tables = {name: read_table(folder / f"{name}.parquet") for name in groups}
 
@@ -64,21 +64,21 @@ def _compared(
 
     baseline = rows("domain", BASELINE)
     for phase in PHASES:
-        for factor in studies["weights"]["factors"]:
+        for factor in studies.weights.factors:
             name = weight_case(factor, phase)
             yield "weights", name, baseline, rows("weights", name)
-    times = studies["rendezvous"]["sample_times_s"]
+    times = studies.rendezvous.sample_times_s
     first, last = times[0], times[-1]
     change = f"Ts {first:g} to {last:g} s"
-    horizon = section["phases"]["far"]["horizon"]
-    if horizon in studies["rendezvous"]["horizons"]:
+    horizon = section.phases.far.horizon
+    if horizon in studies.rendezvous.horizons:
         yield (
             "weights",
             f"{change}, rendezvous phase",
             rows("rendezvous-sweep", sweep_case(horizon, first)),
             rows("rendezvous-sweep", sweep_case(horizon, last)),
         )
-    factors = studies["weights"]["factors"]
+    factors = studies.weights.factors
     for factor in (factors[0], factors[-1]):
         yield (
             "weights",
@@ -86,11 +86,11 @@ def _compared(
             rows("weights", weighted_sweep_case(factor, first)),
             rows("weights", weighted_sweep_case(factor, last)),
         )
-    for delay in studies["delay"]["delays_s"]:
+    for delay in studies.delay.delays_s:
         for known in (False, True):
             name = delay_case(delay, known)
             yield "delay", name, baseline, rows("delay", name)
-    for inclination in studies["prediction"]["inclinations_deg"]:
+    for inclination in studies.prediction.inclinations_deg:
         yield (
             "prediction",
             f"J2 predicted, {inclination:g} deg",

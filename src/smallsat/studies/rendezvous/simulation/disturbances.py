@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from smallsat.config import Config
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
+from smallsat.studies.rendezvous.configuration import Flight, MonteCarlo, ThrustError
 from smallsat.studies.rendezvous.guidance.law import Law
 from smallsat.studies.rendezvous.model.actuation_noise import (
     Noise,
@@ -17,37 +17,29 @@ from smallsat.studies.rendezvous.model.prediction import transition
 from smallsat.studies.rendezvous.simulation.motion import BURNS, IMPULSES, NonlinearMotion
 
 
-def thrust_noise(section: Config) -> Noise:
+def thrust_noise(error: ThrustError) -> Noise:
     """Noise of the thrust's amplitude (Table 5.1)."""
-    table = section["studies"]["robustness"]["thrust_error"]
-    return Noise(
-        table["tau_s"], table["omega_n_rad_s"], table["xi"], table["eta_w"], table["eta_v"]
-    )
+    return Noise(error.tau_s, error.omega_n_rad_s, error.xi, error.eta_w, error.eta_v)
 
 
-def thrust_reading(section: Config) -> str:
-    """Which of `actuation_noise.READINGS` is run."""
-    return section["studies"]["robustness"]["thrust_error"]["reading"]
-
-
-def nonlinear_motion(section: Config, law: Law, actuation: int) -> NonlinearMotion:
+def nonlinear_motion(section: Flight, law: Law, actuation: int) -> NonlinearMotion:
     """Two bodies in the Earth's field with drag, a known state and faultless thrusters.
 
     Parameters
     ----------
     section
-        The configuration's ``rendezvous``: its spacecraft and truth.
+        For its spacecraft and truth.
     law
         For the target's mean motion.
     actuation
         One of `motion.COMMANDED`, `IMPULSES` and `BURNS`. No least on-time is printed: none here.
     """
-    craft = section["spacecraft"]
+    craft = section.spacecraft
     return NonlinearMotion(
-        environment=environment(section["truth"], law.mean_motion, craft["mass_kg"]),
-        target=target_state(section["truth"], law.mean_motion),
-        mass=float(craft["mass_kg"]),
-        force=float(craft["thruster_N"]),
+        environment=environment(section.truth, law.mean_motion, craft.mass_kg),
+        target=target_state(section.truth, law.mean_motion),
+        mass=craft.mass_kg,
+        force=craft.thruster_N,
         minimum_on_time=0.0,
         actuation=actuation,
         error_start=np.zeros((2, 2)),
@@ -63,7 +55,7 @@ def nonlinear_motion(section: Config, law: Law, actuation: int) -> NonlinearMoti
 
 
 def disturbed_motion(
-    section: Config,
+    section: MonteCarlo,
     law: Law,
     thrust_error: bool = True,
     measurement_error: bool = True,
@@ -71,26 +63,26 @@ def disturbed_motion(
     burns: bool = False,
 ) -> NonlinearMotion:
     """Nonlinear motion with all disturbances of chapter 5, or some; gravity and drag always."""
-    table = section["studies"]["robustness"]
-    noise, reading = thrust_noise(section), thrust_reading(section)
+    table = section.studies.robustness
+    noise, reading = thrust_noise(table.thrust_error), table.thrust_error.reading
     steps = [interval(noise, reading, duration) for duration in law.sample_times]
     scale = 1.0 if thrust_error else 0.0
     matrix = rate_matrix(law.mean_motion) if law.prediction is None else law.prediction
     return nonlinear_motion(section, law, BURNS if burns else IMPULSES)._replace(
-        minimum_on_time=float(table["minimum_on_time_s"]),
+        minimum_on_time=table.minimum_on_time_s,
         error_start=scale * stationary_factor(noise, reading),
         error_transitions=np.stack([one.transition for one in steps]),
         error_factors=scale * np.stack([one.factor for one in steps]),
         measured=True,
-        position_deviation=float(table["position_deviation_m"]) if measurement_error else 0.0,
-        velocity_deviation=float(table["velocity_deviation_m_s"]) if measurement_error else 0.0,
+        position_deviation=table.position_deviation_m if measurement_error else 0.0,
+        velocity_deviation=table.velocity_deviation_m_s if measurement_error else 0.0,
         filtered=filtered,
         filter_model=FilterModel(
-            position_error=float(table["position_deviation_m"]),
-            velocity_error=float(table["velocity_deviation_m_s"]),
+            position_error=table.position_deviation_m,
+            velocity_error=table.velocity_deviation_m_s,
             amplitude_error=float(np.sqrt(steady_state(noise, reading)[0, 0])),
-            gradient_error=float(table["filter"]["gradient_error"]),
-            other_acceleration=float(table["filter"]["other_acceleration_m_s2"]),
+            gradient_error=table.filter.gradient_error,
+            other_acceleration=table.filter.other_acceleration_m_s2,
             mean_motion=law.mean_motion,
         ),
         filter_transitions=np.stack([transition(matrix, ts) for ts in law.sample_times]),

@@ -3,8 +3,8 @@
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
+from smallsat.studies.rendezvous.configuration import Flight
 from smallsat.studies.rendezvous.guidance.law import PHASES, Law
 from smallsat.studies.rendezvous.model.columns import CHANGE, STATE
 from smallsat.studies.rendezvous.model.prediction import transition
@@ -16,7 +16,7 @@ from smallsat.studies.rendezvous.simulation.delta_v import READINGS, summed
 PIECES = 10
 
 
-def simulate_cases(section: Config) -> dict[str, pd.DataFrame]:
+def simulate_cases(section: Flight) -> dict[str, pd.DataFrame]:
     """Simulate the cases: the tables ``flights``, ``paths`` and ``phases`` by file name.
 
     ``flights.parquet`` has a row a step (state before the control, velocity change, status) and a

@@ -6,8 +6,8 @@ or by burns of the printed thruster that begin at each step.
 
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.statistics.random_streams import stream
+from smallsat.studies.rendezvous.configuration import Flight
 from smallsat.studies.rendezvous.guidance.law import PHASES
 from smallsat.studies.rendezvous.parameters import CASES, law, start_state
 from smallsat.studies.rendezvous.simulation.closed_loop import Steps, simulate
@@ -19,9 +19,9 @@ THREE = CASES[:3]  # along V-bar, along R-bar, rotating target
 MODELS = {"impulses": COMMANDED, "burns": BURNS}
 
 
-def simulate_nonlinear(section: Config) -> pd.DataFrame:
+def simulate_nonlinear(section: Flight) -> pd.DataFrame:
     """Steps and delta-v of each phase beside the linear ones: a row a model, flight and phase."""
-    reading, start = section["inferred"]["readings"]["delta_v"], start_state(section)
+    reading, start = section.inferred.readings.delta_v, start_state(section)
 
     def steps(case: str, motion: NonlinearMotion | None) -> Steps:
         # The motion asks for random numbers, none of which act.

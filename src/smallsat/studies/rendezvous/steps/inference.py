@@ -5,11 +5,12 @@ import pandas as pd
 from smallsat.evidence.ledger import Ledger
 from smallsat.results import read_table
 from smallsat.step import Step, Tables
+from smallsat.studies.rendezvous.configuration import Cases
 from smallsat.studies.rendezvous.inference import summary
 from smallsat.studies.rendezvous.inference.search import SIDES
 
 
-def run(step: Step) -> Tables:
+def run(step: Step[Cases]) -> Tables:
     """Summarise them."""
     ledger = Ledger.read(step.published / "values.csv")
     evaluated = pd.concat(

@@ -1,11 +1,12 @@
 """The shards of a group of manoeuvres in one table; the part is the group."""
 
 from smallsat.step import Shard, Step, Tables
+from smallsat.studies.rendezvous.configuration import MonteCarlo
 from smallsat.studies.rendezvous.monte_carlo.shards import merge
 from smallsat.studies.rendezvous.monte_carlo.tables import KEY, PASSAGES, PASSAGES_KEY, SCHEMA
 
 
-def run(step: Step) -> Tables:
+def run(step: Step[MonteCarlo]) -> Tables:
     """Join them in one order."""
     schema, key = (PASSAGES, PASSAGES_KEY) if step.part == "passages" else (SCHEMA, KEY)
     folder = step.results / "studies/shards"

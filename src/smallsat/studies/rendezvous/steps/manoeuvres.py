@@ -7,13 +7,14 @@ import pandas as pd
 
 from smallsat.results import read_table
 from smallsat.step import Step, Tables
+from smallsat.studies.rendezvous.configuration import MonteCarlo
 from smallsat.studies.rendezvous.model.columns import STATE
 from smallsat.studies.rendezvous.monte_carlo.cases import BASELINE, PHASES, Case, cases
 from smallsat.studies.rendezvous.monte_carlo.runs import simulate_cases, simulate_passages
 from smallsat.studies.rendezvous.monte_carlo.tables import end_columns
 
 
-def run(step: Step) -> Tables:
+def run(step: Step[MonteCarlo]) -> Tables:
     """Simulate a shard of a group."""
     flown = cases(step.section, step.part)
     starts = [_starts(case, step.results / "studies") for case in flown]

@@ -1,0 +1,115 @@
+"""The configuration's ``mars`` section."""
+
+from typing import Annotated
+
+from annotated_types import Gt, Interval, Le, Len
+
+from smallsat.quantities import (
+    Count,
+    Inclination,
+    NonNegative,
+    Number,
+    Part,
+    Positive,
+    Several,
+    Vector,
+)
+
+Duration = Annotated[Number, Gt(0), Le(1e6)]
+AtLeastOne = Annotated[Number, Interval(ge=1)]
+
+
+class Orbit(Part):
+    """A circular one."""
+
+    raan_deg: Number
+    inclination_deg: Inclination
+    argument_of_latitude_deg: Number
+    rate_rad_s: Positive
+    altitude_km: Positive
+
+
+class Orbits(Part):
+    """Of the nano-satellite and of the mothercraft."""
+
+    mars_radius_km: Positive
+    lmo: Orbit
+    gmo: Orbit
+
+
+class Spacecraft(Part):
+    """Principal moments in the body frame, and the attitude at time zero."""
+
+    inertia_kg_m2: Annotated[tuple[Positive, ...], Len(3, 3)]
+    initial_mrp: Vector
+    initial_rate_deg_s: Vector
+
+
+class Requirements(Part):
+    """What the gains follow from."""
+
+    largest_decay_time_s: Positive
+    largest_damping_ratio: Positive
+
+
+class FrameDifference(Part):
+    """Steps of the finite difference for the rate of the GMO frame."""
+
+    tracking_error: Positive
+    control: Positive
+
+
+class MrpSwitch(Part):
+    """Norms at which each run goes over to the shadow set."""
+
+    torque: AtLeastOne
+    sun: AtLeastOne
+    nadir: AtLeastOne
+    gmo: AtLeastOne
+    mission: AtLeastOne
+
+
+class Durations(Part):
+    """Of the runs."""
+
+    response: Duration
+    mission: Duration
+    day: Duration
+
+
+class AnswerTimes(Part):
+    """When the document prints its answers; its tables have places for so many."""
+
+    position_lmo: NonNegative
+    position_gmo: NonNegative
+    hill_frame: NonNegative
+    reference_frames: NonNegative
+    no_torque: NonNegative
+    fixed_torque: NonNegative
+    pointing: Annotated[Several[NonNegative], Len(1, 4)]
+    mission: Annotated[Several[NonNegative], Len(1, 5)]
+
+
+class Animation(Part):
+    """The films."""
+
+    frames_per_s: Count
+    mission_step_s: Positive
+    day_step_s: Positive
+
+
+class Configuration(Part):
+    """The whole section."""
+
+    orbits: Orbits
+    spacecraft: Spacecraft
+    requirements: Requirements
+    visibility_deg: Inclination
+    fixed_torque_N_m: Vector
+    # Shorter ones fill the memory.
+    step_s: Annotated[Number, Interval(ge=0.01)]
+    frame_difference_s: FrameDifference
+    mrp_switch: MrpSwitch
+    durations_s: Durations
+    answer_times_s: AnswerTimes
+    animation: Animation

@@ -1,0 +1,167 @@
+"""The configuration's ``racing`` section."""
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+from annotated_types import Interval, Len, Lt
+from pydantic import AfterValidator, Field, StrictBool
+
+from smallsat.quantities import (
+    Count,
+    Differing,
+    Integer,
+    NonNegative,
+    Number,
+    Part,
+    Positive,
+    Seed,
+    Several,
+    T,
+    Text,
+    Vector,
+)
+
+
+def _ordered(values: tuple[T, ...]) -> tuple[T, ...]:
+    if values[0] > values[1]:  # type: ignore[operator]
+        raise ValueError("the first must not exceed the second")
+    return values
+
+
+def _absolute(path: str) -> str:
+    """The path of a course file from the root: jobs run elsewhere."""
+    if path and not Path(path).is_file():
+        raise ValueError(
+            "must be the path of a CSV file that exists, from the folder in which snakemake is "
+            'called, or "" for the course of the seed'
+        )
+    return path and str(Path(path).resolve())
+
+
+Ordered = Annotated[tuple[T, ...], AfterValidator(_ordered), Len(2, 2)]
+Angle = Annotated[Number, Interval(ge=-180, le=180)]
+Panels = Annotated[Integer, Interval(ge=8, le=10000)]
+
+
+class CourseRanges(Part):
+    """Of the generator of courses."""
+
+    semi_major_m: Ordered[Positive]
+    semi_minor_m: Ordered[Positive]
+    distance_m: Ordered[Positive]
+    azimuth_deg: Ordered[Angle]
+    elevation_deg: Ordered[Angle]
+    rings: Ordered[Annotated[Integer, Interval(ge=1, le=100)]]
+
+
+class Start(Part):
+    """The variance of a start position is (multiple x largest axis) / level^2."""
+
+    axis_multiple: Positive
+    sigma_level: Positive
+
+
+class Passage(Part):
+    """How near to a ring's plane and normal a passage is."""
+
+    plane_m: Positive
+    pointing_deg: Positive
+
+
+class Craft(Part):
+    """A CubeSat; an axial one has the thrust along each axis."""
+
+    thrust_m_s2: Positive
+    axial: StrictBool
+    position_m: Vector
+
+
+class CubeSats(Part):
+    """Who flies."""
+
+    Eeny: Craft
+    Meeny: Craft
+    Miny: Craft
+    Mo: Craft
+
+
+class Scenario(Part):
+    """A course, from its seed or a file, and those who fly it."""
+
+    seed: Annotated[Integer, Interval(ge=0, le=2**32 - 1)]
+    course_file: Annotated[Text, AfterValidator(_absolute)]
+    cubesats: CubeSats
+
+
+class Scenarios(Part):
+    """The two of the document."""
+
+    scenario_1: Scenario = Field(alias="scenario-1")
+    scenario_2: Scenario = Field(alias="scenario-2")
+
+
+class AsPublished(Part):
+    """Listings C.C to C.F: the flight has the tolerance, the quadrature in the solve the panels."""
+
+    duration_multiple: Annotated[Number, Interval(ge=1)]
+    costate_bound: Positive
+    evaluations: Annotated[Integer, Interval(ge=8)]
+    deadzone: NonNegative
+    constraint_deadzone: NonNegative
+    final_hamiltonian: Annotated[Number, Lt(0)]
+    tolerance: Positive
+    panels: Panels
+    first_weight: Positive
+    other_first_weights: Differing[Positive]
+
+
+class Optimum(Part):
+    """Held controls a segment, and the starts that all have to find the same optimum."""
+
+    intervals: Annotated[Integer, Interval(ge=4, le=200)]
+    finer_intervals: Several[Annotated[Integer, Interval(ge=4, le=400)]]
+    starts: Annotated[Integer, Interval(ge=1, le=1000)]
+    seed: Seed
+    indirect_panels: Panels
+
+
+class DynamicProgramming(Part):
+    """A grid of speeds, refined."""
+
+    cubesat: Literal["Eeny", "Meeny", "Miny", "Mo"]
+    least_speed: Positive
+    largest_speed: Positive
+    speeds: Annotated[Integer, Interval(ge=3, le=200)]
+    refinements: Annotated[Integer, Interval(ge=1, le=30)]
+
+
+class RandomCourses(Part):
+    """Beyond the document."""
+
+    courses: Annotated[Integer, Interval(ge=2, le=100000)]
+    thrust_m_s2: Positive
+    seed: Seed
+    positions: Annotated[Integer, Interval(ge=2, le=1000)]
+
+
+class Animation(Part):
+    """The film."""
+
+    frames_per_s: Count
+    step_s: Positive
+
+
+class Configuration(Part):
+    """The whole section; the orbit is that of the course's origin."""
+
+    orbit_period_min: Positive
+    course: CourseRanges
+    start: Start
+    passage: Passage
+    scenarios: Scenarios
+    as_published: AsPublished
+    optimum: Optimum
+    dynamic_programming: DynamicProgramming
+    random_courses: RandomCourses
+    thrust_sweep_m_s2: Annotated[Several[Positive], Len(2)]
+    animation: Animation

@@ -1,0 +1,309 @@
+"""The configuration's ``rendezvous`` section."""
+
+from typing import Annotated, Literal
+
+from annotated_types import Gt, Interval, Le, Len, Lt
+from pydantic import StrictBool
+
+from smallsat.quantities import (
+    Count,
+    Growing,
+    Inclination,
+    Integer,
+    NonNegative,
+    Number,
+    Part,
+    Positive,
+    Range,
+    Seed,
+    Several,
+    Vector,
+)
+
+Horizon = Annotated[Integer, Interval(ge=1, le=120)]
+Generations = Annotated[Integer, Interval(ge=0, le=1000)]
+Degree = Annotated[Integer, Interval(ge=0, le=8)]
+Runs = Annotated[Integer, Interval(ge=2, le=100000)]
+Switch = Literal["cone", "distance", "along axis"]
+
+
+class Spacecraft(Part):
+    """Each of the two."""
+
+    mass_kg: Positive
+    size_units: Count
+    thruster_N: Positive
+    thrusters: Count
+
+
+class Start(Part):
+    """The chaser's state relative to the target (Table 3.2)."""
+
+    position_m: Vector
+    velocity_m_s: Vector
+
+
+class Phase(Part):
+    """A phase of the guidance (Table 3.1); the bound is a change of velocity per step."""
+
+    sample_time_s: Annotated[Number, Interval(ge=0.1)]
+    horizon: Horizon
+    state_weights: Annotated[tuple[NonNegative, ...], Len(6, 6)]
+    control_weight: Positive
+    penalty: NonNegative
+    cone_angle_deg: Annotated[Number, Gt(0), Lt(90)]
+    control_bound_m_s: Positive
+
+
+class Phases(Part):
+    """From afar to the port."""
+
+    far: Phase
+    mid: Phase
+    final: Phase
+
+
+class LinearProgram(Part):
+    """Set point of r1, factor of Q, R, factor of Q at the end."""
+
+    set_point: NonNegative
+    state_weight: Positive
+    control_weight: Positive
+    terminal_weight: NonNegative
+
+
+class Readings(Part):
+    """How the document is read where it can be read in several ways."""
+
+    cone_angle: Literal["half", "full"]
+    r_bar: Literal["above", "below"]
+    plane_rule: Literal["shortest", "natural", "current"]
+    switches: Annotated[tuple[Switch, ...], Len(3, 3)]
+    set_point_time: Literal["start", "horizon", "stage"]
+    reference_moves: StrictBool
+    delta_v: Literal["2-norm", "1-norm", "resultant", "plane and normal"]
+
+
+class Inferred(Part):
+    """What the document never prints; distances with a name of their own are r1, r2 and r3.
+
+    The set points and the switches are in shares of r1 and r2, the rate of the plane in mean
+    motions, and the terminal weight is Qf as a multiple of Q; 0 is the Riccati solution.
+    """
+
+    mean_motion_rad_s: Positive
+    keep_out_m: Positive
+    set_point_1: Positive
+    switch_1: Positive
+    overshoot_m: Positive
+    set_point_2: Positive
+    switch_2: Positive
+    end_distance_m: Positive
+    speed_bound_m_s: Positive
+    plane_rate: Positive
+    rotation_rate_rad_s: Number
+    terminal_weight: NonNegative
+    lp: LinearProgram
+    readings: Readings
+
+
+class Bounds(Part):
+    """Of the values that are fitted."""
+
+    end_distance_m: Range[Number]
+    keep_out_m: Range[Number]
+    mean_motion_rad_s: Range[Number]
+    overshoot_m: Range[Number]
+    plane_rate: Range[Number]
+    rotation_rate_rad_s: Range[Number]
+    set_point_1: Range[Number]
+    set_point_2: Range[Number]
+    speed_bound_m_s: Range[Number]
+    switch_1: Range[Number]
+    switch_2: Range[Number]
+
+
+class Inference(Part):
+    """The search for what is not printed: its size, the errors it assumes, what it accepts."""
+
+    seed: Seed
+    population: Annotated[Integer, Interval(ge=8, le=1000)]
+    generations: Generations
+    chain: Generations
+    step_error: Positive
+    delta_v_share: Positive
+    delta_v_error_m_s: Positive
+    time_share: Positive
+    acceptable: Annotated[Number, Interval(ge=1)]
+    flown: Annotated[Integer, Interval(ge=1, le=1000)]
+    bounds: Bounds
+
+
+class DragCoefficient(Part):
+    """Of each spacecraft."""
+
+    target: NonNegative
+    chaser: NonNegative
+
+
+class BodySize(Part):
+    """By the axes of the Hill frame."""
+
+    radial: Positive
+    along: Positive
+    normal: Positive
+
+
+class Truth(Part):
+    """The nonlinear motion; a density factor of 0 is no drag."""
+
+    gravity_degree: Degree
+    gravity_order: Degree
+    density_factor: NonNegative
+    drag_coefficient: DragCoefficient
+    body_size_m: BodySize
+    inclination_deg: Inclination
+    raan_deg: Number
+    argument_of_latitude_deg: Number
+    earth_angle_deg: Number
+    step_s: Annotated[Number, Interval(ge=0.1)]
+
+
+class Solvers(Part):
+    """The comparison of solvers, on so many programs of each kind."""
+
+    manoeuvres: Annotated[Integer, Interval(ge=1, le=500)]
+    programs: Annotated[Integer, Interval(ge=1, le=10000)]
+
+
+class Sweep(Part):
+    """Horizons and sample times of one phase."""
+
+    horizons: Growing[Horizon]
+    sample_times_s: Annotated[Growing[Positive], Len(2)]
+
+
+class Weights(Part):
+    """Factors of R, beyond the document."""
+
+    factors: Several[Positive]
+
+
+class Delay(Part):
+    """From the state to its control."""
+
+    delays_s: Several[Positive]
+
+
+class Prediction(Part):
+    """With J2, over inclinations."""
+
+    inclinations_deg: Several[Inclination]
+
+
+class ThrustError(Part):
+    """Table 5.1; of the reading see `smallsat.studies.rendezvous.model.actuation_noise`."""
+
+    tau_s: Positive
+    omega_n_rad_s: Positive
+    xi: Positive
+    eta_w: Positive
+    eta_v: Positive
+    reading: Literal[
+        "deviation-deviation", "deviation-density", "density-deviation", "density-density"
+    ]
+
+
+class Filter(Part):
+    """Of Kalman: what it takes its own model to miss."""
+
+    gradient_error: NonNegative
+    other_acceleration_m_s2: NonNegative
+
+
+class Robustness(Part):
+    """Chapter 5; ``variant_runs`` are of what goes beyond the document."""
+
+    seed: Seed
+    states: Annotated[Integer, Interval(ge=1, le=100000)]
+    runs: Runs
+    variant_runs: Runs
+    position_deviation_m: NonNegative
+    velocity_deviation_m_s: NonNegative
+    minimum_on_time_s: NonNegative
+    thrust_error: ThrustError
+    filter: Filter
+
+
+class Passages(Part):
+    """Docking distances r3 and time limits."""
+
+    runs: Runs
+    distances_m: Growing[Positive]
+    limits_min: Growing[Positive]
+
+
+class Bootstrap(Part):
+    """How the intervals of the studies' effects are drawn."""
+
+    resamples: Annotated[Integer, Interval(ge=100, le=100000)]
+    confidence: Annotated[Number, Gt(0), Lt(1)]
+    seed: Seed
+
+
+class Flown(Part):
+    """What the manoeuvres of chapters 4 and 5 depend on; the share is of the initial states."""
+
+    seed: Seed
+    samples: Annotated[Integer, Interval(ge=1, le=1000000)]
+    share: Annotated[Number, Gt(0), Le(1)]
+    distance_km: Range[Positive]
+    velocity_deviation_m_s: NonNegative
+    time_limit_min: Annotated[Number, Gt(0), Le(10000)]
+    rendezvous: Sweep
+    approach: Sweep
+    docking: Sweep
+    weights: Weights
+    delay: Delay
+    prediction: Prediction
+    robustness: Robustness
+    passages: Passages
+
+
+class Studies(Flown):
+    """Chapters 4 and 5, appendix A; results are the same for any number of shards."""
+
+    shards: Annotated[Integer, Interval(ge=1, le=100)]
+    bootstrap: Bootstrap
+
+
+class Flight(Part):
+    """What every manoeuvre depends on."""
+
+    spacecraft: Spacecraft
+    start: Start
+    port_m: Vector
+    phases: Phases
+    inferred: Inferred
+    truth: Truth
+
+
+class Cases(Flight):
+    """What the cases of chapter 3 and the inference depend on."""
+
+    cone_faces: Annotated[Integer, Interval(ge=4, le=4)]
+    target_eccentricity: Annotated[Number, Interval(ge=0, le=0)]
+    inference: Inference
+
+
+class MonteCarlo(Flight):
+    """What the manoeuvres of chapters 4 and 5 depend on."""
+
+    studies: Flown
+
+
+class Configuration(Cases, MonteCarlo):
+    """The whole section."""
+
+    solvers: Solvers
+    studies: Studies
