@@ -5,25 +5,25 @@ from pathlib import Path
 
 import numpy as np
 
-from smallsat.config import read_yaml
+from smallsat.config import default_config
 from smallsat.studies.mars.methods.simulation import AUTOMATIC, run
-from smallsat.studies.mars.parameters import Parameters, parameters
+from smallsat.studies.mars.parameters import Parameters
 
-CONFIG = Path(__file__).parents[1] / "config/default/mars.yaml"
+ROOT = Path(__file__).parents[1]
 REPETITIONS = 5
 
 
 def measure() -> dict[str, float]:
     """Seconds of the mission both ways, the ratio, and the largest difference of the attitudes."""
-    section = read_yaml(CONFIG)["mars"]
-    given = parameters(section)
-    duration, step = section["durations_s"]["mission"], section["step_s"]
-    switch = section["mrp_switch"]["mission"]
-    arguments = (given, AUTOMATIC, duration, step, step, switch)
+    section = default_config(ROOT).mars
+    parameters = Parameters.from_section(section)
+    duration, step = section.durations_s.mission, section.step_s
+    switch = section.mrp_switch.mission
+    arguments = (parameters, AUTOMATIC, duration, step, step, switch)
     compiled = run(*arguments)  # compiles
     compiled_s = min(_seconds(lambda: run(*arguments)) for _ in range(REPETITIONS))
     began = time.perf_counter()
-    plain = plain_mission(given, duration, step, switch)
+    plain = plain_mission(parameters, duration, step, switch)
     plain_s = time.perf_counter() - began
     return {
         "compiled_s": compiled_s,
@@ -33,11 +33,13 @@ def measure() -> dict[str, float]:
     }
 
 
-def plain_mission(given: Parameters, duration: float, step: float, switch: float) -> np.ndarray:
+def plain_mission(
+    parameters: Parameters, duration: float, step: float, switch: float
+) -> np.ndarray:
     """States of the mission, shape (steps + 1, 6), a NumPy expression at a time."""
-    state = given.initial_state.copy()
+    state = parameters.initial_state.copy()
     states = [state]
-    inertia, inverse = np.diag(given.inertia), np.diag(1.0 / given.inertia)
+    inertia, inverse = np.diag(parameters.inertia), np.diag(1.0 / parameters.inertia)
 
     def rate_of(state: np.ndarray, torque: np.ndarray) -> np.ndarray:
         sigma, rate = state[:3], state[3:]
@@ -45,10 +47,10 @@ def plain_mission(given: Parameters, duration: float, step: float, switch: float
         return np.r_[matrix @ rate / 4, inverse @ (torque - _tilde(rate) @ inertia @ rate)]
 
     for k in range(round(duration / step)):
-        frame, frame_rate = _reference(given, k * step, step)
+        frame, frame_rate = _reference(parameters, k * step, step)
         body = _dcm(state[:3])
         sigma = _mrp(body @ frame.T)
-        torque = -given.gains.k * sigma - given.gains.p * (state[3:] - body @ frame_rate)
+        torque = -parameters.gains.k * sigma - parameters.gains.p * (state[3:] - body @ frame_rate)
         k1 = step * rate_of(state, torque)
         k2 = step * rate_of(state + k1 / 2, torque)
         k3 = step * rate_of(state + k2 / 2, torque)
@@ -60,21 +62,21 @@ def plain_mission(given: Parameters, duration: float, step: float, switch: float
     return np.array(states)
 
 
-def _reference(given: Parameters, time: float, difference: float):
-    lmo, gmo = _orbit_frame(given.lmo, time), _orbit_frame(given.gmo, time)
+def _reference(parameters: Parameters, time: float, difference: float):
+    lmo, gmo = _orbit_frame(parameters.lmo, time), _orbit_frame(parameters.gmo, time)
     if lmo[0, 1] > 0:
         return np.array([[-1.0, 0, 0], [0, 0, 1], [0, 1, 0]]), np.zeros(3)
-    if np.arccos(lmo[0] @ gmo[0]) <= given.visibility:
-        now, later = _gmo_frame(given, time), _gmo_frame(given, time + difference)
+    if np.arccos(lmo[0] @ gmo[0]) <= parameters.visibility:
+        now, later = _gmo_frame(parameters, time), _gmo_frame(parameters, time + difference)
         tilde = -(later - now) / difference @ now.T
         return now, now.T @ np.array([-tilde[1, 2], tilde[0, 2], -tilde[0, 1]])
-    return np.diag([-1.0, 1.0, -1.0]) @ lmo, given.lmo.rate * lmo[2]
+    return np.diag([-1.0, 1.0, -1.0]) @ lmo, parameters.lmo.rate * lmo[2]
 
 
-def _gmo_frame(given: Parameters, time: float) -> np.ndarray:
+def _gmo_frame(parameters: Parameters, time: float) -> np.ndarray:
     sight = (
-        given.gmo.radius * _orbit_frame(given.gmo, time)[0]
-        - given.lmo.radius * _orbit_frame(given.lmo, time)[0]
+        parameters.gmo.radius * _orbit_frame(parameters.gmo, time)[0]
+        - parameters.lmo.radius * _orbit_frame(parameters.lmo, time)[0]
     )
     first = -sight / np.linalg.norm(sight)
     second = np.cross(sight, [0.0, 0.0, 1.0])

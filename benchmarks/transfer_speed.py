@@ -12,7 +12,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import minimize
 
-from smallsat.config import read_yaml
+from smallsat.config import default_config
 from smallsat.optimal_control.nonlinear_program import SlsqpSolver
 from smallsat.studies.transfer.methods import experiments
 from smallsat.studies.transfer.methods.direct import (
@@ -63,21 +63,21 @@ def port_of_the_listing(problem: TransferProblem, case: Case, guess: np.ndarray,
 
 def measure() -> dict[str, float]:
     """Seconds and ratios; every ratio is port over ours in this same run."""
-    config = read_yaml(ROOT / "config/default/transfer.yaml")["transfer"]
-    problem = TransferProblem.from_config(config)
+    section = default_config(ROOT).transfer
+    problem = TransferProblem.of(section.problem)
     ours = port = 0.0
     for degree, intervals in CASES:
         case = Case(degree, intervals, "global")
-        limits = config["bounds"]
+        limits = section.bounds
         program = shooting_program(
             problem,
             case,
-            config["numerics"]["steps"]["as_published"],
-            coefficient_bounds=tuple(limits["coefficient"]),
-            state_bounds=tuple(limits["interior_state"]),
-            time_bounds=tuple(limits["final_time_multiple"]),
+            section.numerics.steps.as_published,
+            coefficient_bounds=limits.coefficient,
+            state_bounds=limits.interior_state,
+            time_bounds=limits.final_time_multiple,
         )
-        guess = published_guess(case, config["guess"])
+        guess = published_guess(case, section.guess)
         began = time.perf_counter()
         SlsqpSolver(program).solve(guess, TOLERANCE)
         ours += time.perf_counter() - began
@@ -86,7 +86,7 @@ def measure() -> dict[str, float]:
             problem, case, guess, list(zip(program.lower, program.upper, strict=True))
         )
         port += time.perf_counter() - began
-    converged, _ = experiments.converged(config)
+    converged = experiments.converged(section).cases
     return {
         "as published, six cases: port / ours": port / ours,
         "20 converged solves (s; goal 3, the document 729)": float(converged["seconds"].sum()),

@@ -84,7 +84,7 @@ def section_type(study: str) -> type[Part]:
 def untyped(section: Any) -> Any:
     """Transition: the plain form of a section whose study does not take the typed one yet."""
     study = type(section).__module__.split(".")[2]
-    return section if study == "rendezvous" else section.model_dump(mode="json")
+    return section if study not in ("slew", "racing") else section.model_dump(mode="json")
 
 
 def _study(path: Path) -> Study:

@@ -79,9 +79,9 @@ Seed = Annotated[Integer, Ge(0)]
 
 Text = Annotated[str, Strict(), BeforeValidator(_text)]
 
-Vector = Annotated[tuple[Number, ...], Len(3, 3)]
+Vector = Annotated[tuple[Number, Number, Number], Len(3, 3)]
 # Values of a kind without one twice, with one at least, and from the least to the largest.
 Differing = Annotated[tuple[T, ...], AfterValidator(_differing)]
 Several = Annotated[Differing[T], Len(1)]
 Growing = Annotated[tuple[T, ...], AfterValidator(_growing), Len(1)]
-Range = Annotated[tuple[T, ...], AfterValidator(_growing), Len(2, 2)]
+Range = Annotated[tuple[T, T], AfterValidator(_growing), Len(2, 2)]

@@ -1,24 +1,19 @@
-from pathlib import Path
-
 import pytest
 
-from smallsat.strict_yaml import read_yaml
 from smallsat.studies.mars.methods.simulation import document_runs
-from smallsat.studies.mars.parameters import parameters
-
-CONFIG = Path(__file__).parents[2] / "config/default/mars.yaml"
+from smallsat.studies.mars.parameters import Parameters
 
 
 @pytest.fixture(scope="session")
-def section():
-    return read_yaml(CONFIG)["mars"]
+def section(config):
+    return config.mars
 
 
 @pytest.fixture(scope="session")
-def given(section):
-    return parameters(section)
+def parameters(section):
+    return Parameters.from_section(section)
 
 
 @pytest.fixture(scope="session")
-def runs(section, given):
-    return document_runs(section, given)
+def runs(section, parameters):
+    return document_runs(section, parameters)

@@ -1,23 +1,22 @@
 """Proofs and predicates: they hold on the default configuration, and they can fail."""
 
-import copy
-
 import numpy as np
 import pandas as pd
 import pytest
 
+from smallsat.studies.mars.configuration import MrpSwitch
 from smallsat.studies.mars.evidence import claims, errata
 from smallsat.studies.mars.methods.independent_check import check_runs
 from smallsat.studies.mars.methods.simulation import as_table, day_run
 
 
 @pytest.fixture(scope="module")
-def results(tmp_path_factory, section, given, runs):
+def results(tmp_path_factory, section, parameters, runs):
     folder = tmp_path_factory.mktemp("results")
     tables = [as_table(record).assign(run=name) for name, record in runs.items()]
     pd.concat(tables).to_parquet(folder / "trajectories.parquet")
-    check_runs(section, given).to_parquet(folder / "independent.parquet")
-    as_table(day_run(section, given)).to_parquet(folder / "day.parquet")
+    check_runs(section, parameters).to_parquet(folder / "independent.parquet")
+    as_table(day_run(section, parameters)).to_parquet(folder / "day.parquet")
     return folder
 
 
@@ -42,29 +41,31 @@ PROOFS = [
 @pytest.mark.parametrize("name", PROOFS)
 def test_proof_holds(section, results, grounds, name):
     """Each erratum is proven with the document's own configuration."""
-    proof = getattr(errata, name)(grounds("mars", {"mars": section}, results))
+    proof = getattr(errata, name)(grounds("mars", section, results))
     assert proof.holds, proof.statement
 
 
 @pytest.mark.parametrize(
     ("name", "key", "value"),
     [
-        ("nadir_frame_sign", ("orbits", "lmo", "inclination_deg"), 0.0),
-        ("kinetic_energy_half", ("spacecraft", "initial_rate_deg_s"), [0.1, 0.1, 0.1]),
-        ("argument_of_latitude_start", ("orbits", "lmo", "argument_of_latitude_deg"), 0.0),
-        ("gain_fraction", ("spacecraft", "inertia_kg_m2"), [10.0, 0.6, 7.5]),
-        ("day_length", ("orbits", "gmo", "rate_rad_s"), 2.0 * np.pi / 90000.0),
-        ("switch_thresholds", ("mrp_switch",), dict.fromkeys(["torque", "sun", "nadir"], 1.0)),
+        ("nadir_frame_sign", "orbits.lmo.inclination_deg", 0.0),
+        ("kinetic_energy_half", "spacecraft.initial_rate_deg_s", [0.1, 0.1, 0.1]),
+        ("argument_of_latitude_start", "orbits.lmo.argument_of_latitude_deg", 0.0),
+        ("gain_fraction", "spacecraft.inertia_kg_m2", [10.0, 0.6, 7.5]),
+        ("day_length", "orbits.gmo.rate_rad_s", 2.0 * np.pi / 90000.0),
+        (
+            "switch_thresholds",
+            "mrp_switch",
+            MrpSwitch(**dict.fromkeys(MrpSwitch.model_fields, 1.0)),
+        ),
     ],
 )
-def test_proof_fails_where_the_document_would_be_right(section, results, grounds, name, key, value):
+def test_proof_fails_where_the_document_would_be_right(
+    section, results, grounds, changed, name, key, value
+):
     """A configuration in which the printed version is as good: the proof must not hold."""
-    changed = copy.deepcopy(section)
-    entry = changed
-    for part in key[:-1]:
-        entry = entry[part]
-    entry[key[-1]] = value
-    assert not getattr(errata, name)(grounds("mars", {"mars": changed}, results)).holds
+    other = changed(section, key, value)
+    assert not getattr(errata, name)(grounds("mars", other, results)).holds
 
 
 @pytest.mark.parametrize(
@@ -82,30 +83,28 @@ def test_proof_fails_where_the_document_would_be_right(section, results, grounds
 )
 def test_proof_fails_with_another_literal(section, results, grounds, name, place, right):
     """What the document prints is read from the ledger; printed otherwise, it would be right."""
-    changed = grounds("mars", {"mars": section}, results, {place: right})
+    changed = grounds("mars", section, results, {place: right})
     assert not getattr(errata, name)(changed).holds
 
 
 def test_claims_of_the_fixed_torque_run(section, results, grounds):
     """omega_2 spins up instead of oscillating; the one-second step is too long, as suspected."""
-    given = grounds("mars", {"mars": section}, results)
+    given = grounds("mars", section, results)
     assert claims.rates_oscillate_about_zero(given).outcome == "fails"
     assert claims.step_leaves_artefacts(given).outcome == "holds"
 
 
-def test_convergence_is_judged_by_the_requirement(section, results, grounds):
+def test_convergence_is_judged_by_the_requirement(section, results, grounds, changed):
     """With a requirement a hundred times stricter the same run does not converge in time."""
-    given = grounds("mars", {"mars": section}, results)
+    given = grounds("mars", section, results)
     assert claims.gmo_pointing_converges(given).outcome == "holds"
-    strict = copy.deepcopy(section)
-    strict["requirements"]["largest_decay_time_s"] = 20.0
-    given = grounds("mars", {"mars": strict}, results)
+    strict = changed(section, "requirements.largest_decay_time_s", 20.0)
+    given = grounds("mars", strict, results)
     assert claims.gmo_pointing_converges(given).outcome == "fails"
 
 
-def test_a_short_run_decides_nothing(section, results, grounds):
+def test_a_short_run_decides_nothing(section, results, grounds, changed):
     """A requirement longer than the run can show: undecided, not failed."""
-    slow = copy.deepcopy(section)
-    slow["requirements"]["largest_decay_time_s"] = 1e4
-    given = grounds("mars", {"mars": slow}, results)
+    slow = changed(section, "requirements.largest_decay_time_s", 1e4)
+    given = grounds("mars", slow, results)
     assert claims.sun_pointing_converges(given).outcome == "undecided"

@@ -41,17 +41,17 @@ WITHIN = np.cos(np.radians(30.0))
 
 
 @pytest.mark.parametrize("time", [300.0, 5600.0])
-def test_scenes_show_the_panel_at_the_sun(trajectories, given, time):
+def test_scenes_show_the_panel_at_the_sun(trajectories, parameters, time):
     """Figs. 11 and 15: the solar panel's axis is within 30 deg of the Sun's direction."""
     mission = trajectories[trajectories["run"] == "mission"]
-    data = scene_data(scene_in(given, mission, time)).set_index("item")
+    data = scene_data(scene_in(parameters, mission, time)).set_index("item")
     assert data.loc["b3", "y"] > WITHIN
 
 
 @pytest.mark.parametrize("time", [2100.0, 3400.0, 4400.0])
-def test_scenes_point_the_sensor_or_the_antenna(trajectories, given, time):
+def test_scenes_point_the_sensor_or_the_antenna(trajectories, parameters, time):
     """Figs. 12 to 14: b1 towards Mars's centre, or -b1 to the mothercraft, within 30 deg."""
     mission = trajectories[trajectories["run"] == "mission"]
-    scene = scene_in(given, mission, time)
+    scene = scene_in(parameters, mission, time)
     target = -scene.lmo if scene.mode == NADIR else scene.lmo - scene.gmo
     assert scene.body_axes[0] @ target / np.linalg.norm(target) > WITHIN

@@ -1,6 +1,5 @@
 """A run that overflows: a row that says so, and nothing that rests on it."""
 
-import copy
 from dataclasses import replace
 
 import numpy as np
@@ -17,11 +16,11 @@ from smallsat.workflow.run_step import run_step
 @pytest.fixture(scope="module")
 def short(section):
     """A hundred times the torque, and runs no longer than that needs."""
-    changed = copy.deepcopy(section)
-    changed["fixed_torque_N_m"] = [1.0, -1.0, 2.0]
-    changed["durations_s"] = {"response": 500.0, "mission": 300.0, "day": 300.0}
-    changed["answer_times_s"] |= {"pointing": [15.0], "mission": [300.0]}
-    return changed
+    return section.with_(
+        fixed_torque_N_m=[1.0, -1.0, 2.0],
+        durations_s={"response": 500.0, "mission": 300.0, "day": 300.0},
+        answer_times_s=section.answer_times_s.with_(pointing=[15.0], mission=[300.0]),
+    )
 
 
 @pytest.fixture(scope="module")
@@ -29,7 +28,7 @@ def results(tmp_path_factory, short, root):
     folder = tmp_path_factory.mktemp("results")
     step = Step(short, folder, root / "data/published/mars")
     run_step("mars", "simulation", step)
-    shorter = short | {"durations_s": short["durations_s"] | {"response": 30.0}}
+    shorter = short.with_(durations_s=short.durations_s.with_(response=30.0))
     run_step("mars", "independent_check", replace(step, section=shorter))
     return folder
 
@@ -46,7 +45,7 @@ def test_the_row_names_run_time_and_method(results):
 
 def test_what_needs_the_run_is_not_decided(short, results, grounds):
     """Claims and proofs say that a case is missing; they do not judge what is none."""
-    given = grounds("mars", {"mars": short}, results)
+    given = grounds("mars", short, results)
     for predicate in (claims.rates_oscillate_about_zero, claims.step_leaves_artefacts):
         with pytest.raises(LookupError, match="overflowed"):
             predicate(given)

@@ -1,6 +1,5 @@
 """Observations: one for each published result, and a clear word about impossible answer times."""
 
-import copy
 from pathlib import Path
 
 import numpy as np
@@ -13,9 +12,9 @@ from smallsat.studies.mars.evidence.observations import observations
 LEDGER = Path(__file__).parents[2] / "data/published/mars/values.csv"
 
 
-def test_every_published_result_is_observed_once(section, given, runs):
+def test_every_published_result_is_observed_once(section, parameters, runs):
     """The ids are exactly those of the document's results in the ledger."""
-    observed = [observation.id for observation in observations(section, given, runs)]
+    observed = [observation.id for observation in observations(section, parameters, runs)]
     published = [
         row["id"]
         for row in read_ledger(LEDGER)
@@ -25,20 +24,19 @@ def test_every_published_result_is_observed_once(section, given, runs):
 
 
 @pytest.mark.parametrize("time", [7000.0, 0.5])
-def test_an_answer_time_off_the_grid_is_named(section, given, runs, time):
+def test_an_answer_time_off_the_grid_is_named(section, parameters, runs, changed, time):
     """Beyond the run or between two steps: an input error with key and value."""
-    changed = copy.deepcopy(section)
-    changed["answer_times_s"]["mission"][0] = time
+    other = changed(section, "answer_times_s.mission", (time,))
     with pytest.raises(InputError, match=rf"answer_times_s\.mission': {time:g}"):
-        observations(changed, given, runs)
+        observations(other, parameters, runs)
 
 
-def test_a_run_that_overflowed_is_not_a_number_with_a_note(section, given, runs):
+def test_a_run_that_overflowed_is_not_a_number_with_a_note(section, parameters, runs):
     """Its values are missing and say why; those of the other runs stay."""
     lost = dict(runs)
     lost["fixed torque"] = np.full_like(runs["fixed torque"], np.nan)
     lost["fixed torque"][:, 0] = runs["fixed torque"][:, 0]
-    found = observations(section, given, lost)
+    found = observations(section, parameters, lost)
     missing = [one for one in found if np.isnan(one.computed)]
     assert {one.id.rpartition("/")[0] for one in missing} == {
         "mars/section-ix-c/sigma-b-n-100-s/fixed-torque"

@@ -22,8 +22,8 @@ OMEGA = ["omega_1", "omega_2", "omega_3"]
 
 
 @pytest.fixture(scope="module")
-def again(section, given):
-    return check_runs(section, given)
+def again(section, parameters):
+    return check_runs(section, parameters)
 
 
 # Degrees and rad/s; without control the integration's error adds up over the run.
@@ -60,18 +60,18 @@ def test_pointing_runs_end_on_their_reference(runs, name):
     assert np.degrees(attitude_angle(last[:, 1:4], last[:, 10:13]))[0] < 0.1
 
 
-def test_control_is_the_held_pd_law(runs, given):
+def test_control_is_the_held_pd_law(runs, parameters):
     """Each row's torque follows from its own attitude error and rates, to 1e-12 N m."""
     record = runs["nadir"][::50]
     for row in record:
         error = row[4:7] - row[13:16]
-        attitude_part = row[7:10] + given.gains.p * error
-        angle = 4.0 * np.arctan(np.linalg.norm(attitude_part) / given.gains.k)
+        attitude_part = row[7:10] + parameters.gains.p * error
+        angle = 4.0 * np.arctan(np.linalg.norm(attitude_part) / parameters.gains.k)
         expected = attitude_angle(row[None, 10:13], row[None, 1:4])[0]
         assert angle == pytest.approx(expected, abs=1e-7)
 
 
-def test_holding_the_torque_is_what_the_document_did(runs, given):
+def test_holding_the_torque_is_what_the_document_did(runs, parameters):
     """A torque that follows the state at every instant misses Table 4's first value at 100 s.
 
     Printed is 0.169 (held, in steps of 1 s); the continuous law, by an adaptive method with rtol
@@ -80,18 +80,22 @@ def test_holding_the_torque_is_what_the_document_did(runs, given):
 
     def rate_of(_, y):
         sigma, rate = tracking_error(y[:3], y[3:], SUN_FRAME, SUN_FRAME_RATE)
-        torque = -given.gains.k * np.array(sigma) - given.gains.p * np.array(rate)
-        return np.r_[mrp_rate(y[:3], y[3:]), angular_acceleration(given.inertia, y[3:], torque)]
+        torque = -parameters.gains.k * np.array(sigma) - parameters.gains.p * np.array(rate)
+        return np.r_[
+            mrp_rate(y[:3], y[3:]), angular_acceleration(parameters.inertia, y[3:], torque)
+        ]
 
-    end = solve_ivp(rate_of, (0.0, 100.0), given.initial_state, rtol=1e-10, atol=1e-12).y[:, -1]
+    end = solve_ivp(rate_of, (0.0, 100.0), parameters.initial_state, rtol=1e-10, atol=1e-12).y[
+        :, -1
+    ]
     half_unit = 0.5e-3
     assert abs(runs["sun"][100, 1] - 0.169) <= half_unit < abs(end[0] - 0.169)
 
 
-def test_a_run_that_starts_in_a_longer_one_is_its_beginning(section, given):
+def test_a_run_that_starts_in_a_longer_one_is_its_beginning(section, parameters):
     """Runs do not depend on their length: the first 500 steps of two missions are identical."""
-    arguments = (section["step_s"], 1.0, section["mrp_switch"]["mission"])
-    short, long = (run(given, AUTOMATIC, duration, *arguments) for duration in (500.0, 2500.0))
+    arguments = (section.step_s, 1.0, section.mrp_switch.mission)
+    short, long = (run(parameters, AUTOMATIC, duration, *arguments) for duration in (500.0, 2500.0))
     np.testing.assert_array_equal(short, long[:501])
 
 

@@ -72,10 +72,10 @@ def test_early_stopping_is_counted_right(tested_run, config, ledger):
     """
     path = tested_run / "data/results/transfer/early-stopping.csv"
     table = pd.read_csv(path, dtype={"final_time": str})
-    study = config["transfer"]
-    numerics = study["numerics"]
-    tolerances = [numerics["as_published_tolerance"], *numerics["early_stopping_tolerances"]]
-    cases = product(study["degrees"], study["intervals"], tolerances)
+    section = config.transfer
+    numerics = section.numerics
+    tolerances = [numerics.as_published_tolerance, *numerics.early_stopping_tolerances]
+    cases = product(section.degrees, section.intervals, tolerances)
     found = table[["degree", "intervals", "tolerance"]].itertuples(index=False, name=None)
     assert sorted(found) == sorted(cases)
     printed = printed_cases(ledger("transfer"), "Table 4")["terminal time"]

@@ -24,12 +24,12 @@ from smallsat.studies.transfer.model.units import canonical, units_of
 
 @pytest.fixture(scope="module")
 def problem(config):
-    return TransferProblem.from_config(config["transfer"])
+    return TransferProblem.of(config.transfer.problem)
 
 
 def extremals(problem, config, intervals=(1,)):
     """Solutions by number of intervals, in canonical units."""
-    guess = config["transfer"]["guess"]
+    guess = config.transfer.guess
     found = find_extremals(canonical(problem), units_of(problem), intervals, guess, 192)
     assert all(isinstance(result, Found) for result in found.values()), found
     return {count: result.extremal for count, result in found.items()}

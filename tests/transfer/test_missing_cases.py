@@ -1,6 +1,5 @@
 """Where nothing converges: rows that say so, and claims, proofs and figures that bear it."""
 
-import copy
 from dataclasses import replace
 
 import matplotlib.pyplot as plt
@@ -8,10 +7,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from smallsat.config import read_yaml
 from smallsat.evidence.claims import judge_claims
 from smallsat.evidence.errata import prove_errata
 from smallsat.step import Step
+from smallsat.strict_yaml import read_yaml
 from smallsat.studies.transfer.figures.cases import control_figure, states_figure
 from smallsat.studies.transfer.methods import experiments, extremals
 from smallsat.studies.transfer.methods.continuation import ContinuationError
@@ -30,10 +29,8 @@ FROM_PRINT_ALONE = {
 
 @pytest.fixture(scope="module")
 def section(config):
-    small = copy.deepcopy(config["transfer"])
-    small |= {"degrees": [2], "intervals": [2]}
-    small["numerics"] |= {"multistart": 1, "early_stopping_tolerances": [1e-4]}
-    return small
+    numerics = config.transfer.numerics.with_(multistart=1, early_stopping_tolerances=[1e-4])
+    return config.transfer.with_(degrees=[2], intervals=[2], numerics=numerics)
 
 
 @pytest.fixture(scope="module")
@@ -58,7 +55,7 @@ def results(section, root, tmp_path_factory, grounds):
             run_step("transfer", "as_published", replace(step, part=part))
         for name in ("multistart", "collocation", "gather", "observations"):
             run_step("transfer", name, step)
-        given = grounds("transfer", {"transfer": section}, folder)
+        given = grounds("transfer", section, folder)
         claims = judge_claims(read_yaml(published / "claims.yaml"), given, "claims.yaml")
         errata = prove_errata(read_yaml(published / "errata.yaml"), given, "errata.yaml")
     claims.to_csv(folder / "claims.csv", index=False)
@@ -114,7 +111,7 @@ def test_a_missing_case_is_drawn_as_missing(results):
 @pytest.mark.parametrize("final_time", [0.0, -1.0, np.nan, 13.3, 1e9])
 def test_what_cannot_be_flown_is_no_number_and_meets_nothing(config, final_time):
     """No time, no end, or no mass left: no state, and an infinite error."""
-    problem = TransferProblem.from_config(config["transfer"])
+    problem = TransferProblem.of(config.transfer.problem)
     times = np.array([0.0, final_time])
     state, table = propagate(problem, ControlHistory(times, [lambda t: 0.0 * t]), 5)
     assert np.isnan(state).all()
@@ -124,7 +121,7 @@ def test_what_cannot_be_flown_is_no_number_and_meets_nothing(config, final_time)
 
 def test_a_slower_extremal_is_not_taken(config, monkeypatch):
     """Where the document's guess ends at another extremal, the continuation's is the start."""
-    problem = TransferProblem.from_config(config["transfer"])
+    problem = TransferProblem.of(config.transfer.problem)
     calls = []
     original = extremals.solve_extremal
 
@@ -137,7 +134,7 @@ def test_a_slower_extremal_is_not_taken(config, monkeypatch):
 
     monkeypatch.setattr(extremals, "solve_extremal", slower_first)
     monkeypatch.setattr(extremals, "REFINEMENTS", 0)
-    guess = config["transfer"]["guess"]
+    guess = config.transfer.guess
     units = extremals.Units(1.0, 1.0, 1.0)
     found = extremals.find_extremals(problem, units, (1,), guess, 192)[1]
     assert found.start == extremals.CONTINUATION

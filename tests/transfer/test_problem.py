@@ -16,7 +16,7 @@ finite = st.floats(-2.0, 2.0)
 
 @pytest.fixture(scope="module")
 def problem(config):
-    return TransferProblem.from_config(config["transfer"])
+    return TransferProblem.of(config.transfer.problem)
 
 
 @given(st.floats(0.6, 1.4), st.floats(-0.3, 0.3), st.floats(0.7, 1.2))

@@ -27,7 +27,7 @@ def bound_value(row: Mapping[str, str], binding: Mapping[str, Any], section: Par
     elif "derived" in binding:
         study = row["id"].partition("/")[0]
         value = resolve(binding["derived"], "bindings.yaml")(
-            section if study == "rendezvous" else {study: untyped(section)}
+            section if study not in ("slew", "racing") else {study: untyped(section)}
         )
     else:
         study = row["id"].partition("/")[0]

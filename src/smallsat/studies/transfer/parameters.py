@@ -1,9 +1,9 @@
-"""Checks of the configuration's ``transfer`` section that a schema cannot express."""
+"""The checks of the configuration that no type can make."""
 
 import numpy as np
 
-from smallsat.config import Config
 from smallsat.errors import InputError
+from smallsat.studies.transfer.configuration import Bounds, Configuration, Guess
 from smallsat.studies.transfer.model.problem import TransferProblem
 from smallsat.studies.transfer.model.units import canonical
 
@@ -11,16 +11,16 @@ from smallsat.studies.transfer.model.units import canonical
 TUBES = np.linspace(0.001, 0.999, 999)
 
 
-def check(section: Config) -> Config:
-    """Refuse a transfer that no solution can have, and bounds that contradict themselves.
+def check(section: Configuration) -> None:
+    """Refuse a transfer that no solution can have, and guesses out of their bounds.
 
     Raises
     ------
     InputError
         Naming the key, its value, what is allowed and what to do.
     """
-    _check_bounds(section["bounds"], section["guess"])
-    problem = TransferProblem.from_config(section)
+    _check_guess(section.guess, section.bounds)
+    problem = TransferProblem.of(section.problem)
     if problem.final_radius == problem.initial_radius:
         raise InputError(
             f"config key 'transfer.problem.final_radius': {problem.final_radius} is the initial "
@@ -33,7 +33,6 @@ def check(section: Config) -> Config:
             f"the final radius {problem.final_radius}; give less thrust, a higher exhaust_speed or "
             "a nearer final_radius"
         )
-    return section
 
 
 def _may_arrive(problem: TransferProblem) -> bool:
@@ -55,19 +54,7 @@ def _may_arrive(problem: TransferProblem) -> bool:
         return bool(np.all(strayed * one.longest_time >= tubes))
 
 
-def _check_bounds(bounds: Config, guess: Config) -> None:
-    for name, (low, high) in bounds.items():
-        if not low < high:
-            raise InputError(
-                f"config key 'transfer.bounds.{name}': {[low, high]} is no interval; give the "
-                "lower bound first, and a higher one second"
-            )
-    for name in ("final_time_single", "final_time_multiple"):
-        if bounds[name][0] < 0:
-            raise InputError(
-                f"config key 'transfer.bounds.{name}.0': {bounds[name][0]} is not allowed; a "
-                "flight takes no negative time, give 0 or more"
-            )
+def _check_guess(guess: Guess, bounds: Bounds) -> None:
     for name, interval in (
         ("interior_state", "interior_state"),
         ("coefficient", "coefficient"),

@@ -5,12 +5,12 @@ from itertools import pairwise
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.dynamics.attitude.mrp import dcm_to_mrp, mrp_rate
 from smallsat.dynamics.attitude.rigid_body import angular_acceleration
 from smallsat.dynamics.orbits.circular_orbits import hill_frame, orbit_frame, position, velocity
 from smallsat.evidence.claims import Judgement, judged
 from smallsat.evidence.grounds import Grounds
+from smallsat.studies.mars.configuration import Configuration
 from smallsat.studies.mars.methods.independent_check import attitude_angle, inertial_momentum
 from smallsat.studies.mars.methods.simulation import OPEN_LOOP, run
 from smallsat.studies.mars.model.frames import (
@@ -21,7 +21,7 @@ from smallsat.studies.mars.model.frames import (
     nadir_frame_rate,
 )
 from smallsat.studies.mars.model.gains import damping_ratios, decay_times
-from smallsat.studies.mars.parameters import Parameters, parameters
+from smallsat.studies.mars.parameters import Parameters
 
 SIGMA = ["sigma_1", "sigma_2", "sigma_3"]
 OMEGA = ["omega_1", "omega_2", "omega_3"]
@@ -38,12 +38,12 @@ DECAY_TIMES = 5.0
 VISIBLE_DEG = 1.0
 
 
-def velocity_is_radius_times_rate(grounds: Grounds) -> Judgement:
+def velocity_is_radius_times_rate(grounds: Grounds[Configuration]) -> Judgement:
     """Eq. 6 is compared with a central difference of the position."""
-    given = parameters(grounds.config["mars"])
+    parameters = Parameters.from_section(grounds.section)
     worst = 0.0
-    for orbit in (given.lmo, given.gmo):
-        for time in np.linspace(0.0, grounds.config["mars"]["durations_s"]["mission"], 50):
+    for orbit in (parameters.lmo, parameters.gmo):
+        for time in np.linspace(0.0, grounds.section.durations_s.mission, 50):
             ahead, behind = position(orbit, time + 1.0), position(orbit, time - 1.0)
             by_difference = np.subtract(ahead, behind) / 2.0
             speed = orbit.radius * orbit.rate
@@ -56,10 +56,10 @@ def velocity_is_radius_times_rate(grounds: Grounds) -> Judgement:
     )
 
 
-def rates_follow_from_one_gravity(grounds: Grounds) -> Judgement:
+def rates_follow_from_one_gravity(grounds: Grounds[Configuration]) -> Judgement:
     """Constant rate sqrt(mu / r^3): both rates of Table 2 must belong to one mu."""
-    given = parameters(grounds.config["mars"])
-    mu = [orbit.rate**2 * orbit.radius**3 / 1e9 for orbit in (given.lmo, given.gmo)]
+    parameters = Parameters.from_section(grounds.section)
+    mu = [orbit.rate**2 * orbit.radius**3 / 1e9 for orbit in (parameters.lmo, parameters.gmo)]
     apart = abs(mu[0] / mu[1] - 1.0)
     # The rates have six significant digits, and mu goes with their square.
     return judged(
@@ -69,9 +69,9 @@ def rates_follow_from_one_gravity(grounds: Grounds) -> Judgement:
     )
 
 
-def areosynchronous(grounds: Grounds) -> Judgement:
+def areosynchronous(grounds: Grounds[Configuration]) -> Judgement:
     """The mothercraft's period is compared with the Mars day of Section XIII.B."""
-    period = 2.0 * np.pi / grounds.config["mars"]["orbits"]["gmo"]["rate_rad_s"]
+    period = 2.0 * np.pi / grounds.section.orbits.gmo.rate_rad_s
     day = grounds.ledger.value(MARS_DAY).value
     return judged(
         abs(period - day) < 1.0,
@@ -79,10 +79,10 @@ def areosynchronous(grounds: Grounds) -> Judgement:
     )
 
 
-def euler_angle_rates(grounds: Grounds) -> Judgement:
+def euler_angle_rates(grounds: Grounds[Configuration]) -> Judgement:
     """Eq. 11 is taken with the orbit's rate about its normal only."""
-    given = parameters(grounds.config["mars"])
-    lmo = given.lmo
+    parameters = Parameters.from_section(grounds.section)
+    lmo = parameters.lmo
     s, c = np.sin(lmo.inclination), np.cos(lmo.inclination)
     angle = lmo.argument_of_latitude
     matrix = np.array(
@@ -95,7 +95,7 @@ def euler_angle_rates(grounds: Grounds) -> Judgement:
     if s == 0.0:
         return Judgement("undecided", "Eq. 11 divides by sin i, which is 0 on the LMO orbit")
     rates = matrix @ np.array([0.0, 0.0, lmo.rate]) / s
-    gmo_sine = np.sin(given.gmo.inclination)
+    gmo_sine = np.sin(parameters.gmo.inclination)
     note = " (Eq. 11 divides by sin i = 0 on the GMO orbit, where only the limit holds)"
     return judged(
         np.allclose(rates, [0.0, 0.0, lmo.rate], rtol=ROUNDING, atol=0.0),
@@ -104,12 +104,12 @@ def euler_angle_rates(grounds: Grounds) -> Judgement:
     )
 
 
-def hill_frame_is_orbit_frame(grounds: Grounds) -> Judgement:
+def hill_frame_is_orbit_frame(grounds: Grounds[Configuration]) -> Judgement:
     """[HN] from position and velocity is compared with [ON] from the Euler angles."""
-    given = parameters(grounds.config["mars"])
+    parameters = Parameters.from_section(grounds.section)
     worst = 0.0
-    for orbit in (given.lmo, given.gmo):
-        for time in np.linspace(0.0, grounds.config["mars"]["durations_s"]["mission"], 200):
+    for orbit in (parameters.lmo, parameters.gmo):
+        for time in np.linspace(0.0, grounds.section.durations_s.mission, 200):
             hill = np.array(hill_frame(position(orbit, time), velocity(orbit, time)))
             worst = max(worst, float(np.max(np.abs(hill - np.array(orbit_frame(orbit, time))))))
     return judged(
@@ -117,11 +117,11 @@ def hill_frame_is_orbit_frame(grounds: Grounds) -> Judgement:
     )
 
 
-def nadir_frame_is_flipped_orbit_frame(grounds: Grounds) -> Judgement:
+def nadir_frame_is_flipped_orbit_frame(grounds: Grounds[Configuration]) -> Judgement:
     """[RnN] is compared with [ON], its first and third rows negated."""
-    lmo = parameters(grounds.config["mars"]).lmo
+    lmo = Parameters.from_section(grounds.section).lmo
     flip = np.array([[-1.0], [1.0], [-1.0]])
-    times = np.linspace(0.0, grounds.config["mars"]["durations_s"]["mission"], 200)
+    times = np.linspace(0.0, grounds.section.durations_s.mission, 200)
     worst = max(
         float(np.max(np.abs(np.array(nadir_frame(lmo, t)) - flip * np.array(orbit_frame(lmo, t)))))
         for t in times
@@ -129,10 +129,10 @@ def nadir_frame_is_flipped_orbit_frame(grounds: Grounds) -> Judgement:
     return judged(worst < ROUNDING, f"over the mission no entry differs by more than {worst:.1e}")
 
 
-def nadir_rate_is_orbit_rate(grounds: Grounds) -> Judgement:
+def nadir_rate_is_orbit_rate(grounds: Grounds[Configuration]) -> Judgement:
     """Eq. 26 is compared with a central difference of [RnN]."""
-    lmo = parameters(grounds.config["mars"]).lmo
-    times = np.linspace(0.0, grounds.config["mars"]["durations_s"]["mission"], 50)
+    lmo = Parameters.from_section(grounds.section).lmo
+    times = np.linspace(0.0, grounds.section.durations_s.mission, 50)
     worst = max(
         float(np.linalg.norm(_frame_rate(lambda t: nadir_frame(lmo, t), time) - np.array(rate)))
         for time, rate in ((time, nadir_frame_rate(lmo, time)) for time in times)
@@ -143,15 +143,19 @@ def nadir_rate_is_orbit_rate(grounds: Grounds) -> Judgement:
     )
 
 
-def finite_difference_converges(grounds: Grounds) -> Judgement:
+def finite_difference_converges(grounds: Grounds[Configuration]) -> Judgement:
     """The forward difference of [RcN] must come nearer to a far more accurate one as dt shrinks."""
-    section = grounds.config["mars"]
-    given = parameters(section)
-    time = float(section["answer_times_s"]["reference_frames"])
-    exact = _frame_rate(lambda t: gmo_frame(given.lmo, given.gmo, t), time)
-    spans = [section["frame_difference_s"]["control"] / 10**n for n in range(4)]
+    section = grounds.section
+    parameters = Parameters.from_section(section)
+    time = float(section.answer_times_s.reference_frames)
+    exact = _frame_rate(lambda t: gmo_frame(parameters.lmo, parameters.gmo, t), time)
+    spans = [section.frame_difference_s.control / 10**n for n in range(4)]
     errors = [
-        float(np.linalg.norm(np.array(gmo_frame_rate(given.lmo, given.gmo, time, dt)) - exact))
+        float(
+            np.linalg.norm(
+                np.array(gmo_frame_rate(parameters.lmo, parameters.gmo, time, dt)) - exact
+            )
+        )
         for dt in spans
     ]
     # A difference of entries of size one cannot be better than their rounding over its span.
@@ -164,9 +168,9 @@ def finite_difference_converges(grounds: Grounds) -> Judgement:
     return judged(falls, f"error of omega_Rc/N in rad/s: {listed}: it falls in proportion to dt")
 
 
-def torque_free_invariants(grounds: Grounds) -> Judgement:
+def torque_free_invariants(grounds: Grounds[Configuration]) -> Judgement:
     """The run without torque must keep momentum and energy, and agree with another integration."""
-    inertia = parameters(grounds.config["mars"]).inertia
+    inertia = Parameters.from_section(grounds.section).inertia
     ours, again = _both(grounds, "no torque")
     if not ours[OMEGA].to_numpy().any():
         return Judgement("undecided", "the body rests: nothing moves that could be conserved")
@@ -218,17 +222,17 @@ def attitude_oscillation_speeds_up(grounds: Grounds) -> Judgement:
     )
 
 
-def step_leaves_artefacts(grounds: Grounds) -> Judgement:
+def step_leaves_artefacts(grounds: Grounds[Configuration]) -> Judgement:
     """The fixed-torque run, with the document's step and less, is compared with another method."""
-    section = grounds.config["mars"]
-    given = parameters(section)
+    section = grounds.section
+    parameters = Parameters.from_section(section)
     _, accurate = _both(grounds, "fixed torque")
-    duration, switch = section["durations_s"]["response"], section["mrp_switch"]["torque"]
-    torque = np.array(section["fixed_torque_N_m"], dtype=float)
+    duration, switch = section.durations_s.response, section.mrp_switch.torque
+    torque = np.array(section.fixed_torque_N_m, dtype=float)
     errors = {}
     for division in (1, 2, 4):
-        step = section["step_s"] / division
-        record = run(given, OPEN_LOOP, duration, step, step, switch, torque)
+        step = section.step_s / division
+        record = run(parameters, OPEN_LOOP, duration, step, step, switch, torque)
         angles = attitude_angle(record[::division, 1:4], accurate[SIGMA].to_numpy())
         errors[step] = np.degrees(angles)
     whole, half, quarter = errors.values()
@@ -253,30 +257,28 @@ def step_leaves_artefacts(grounds: Grounds) -> Judgement:
     )
 
 
-def gains_meet_requirements(grounds: Grounds) -> Judgement:
+def gains_meet_requirements(grounds: Grounds[Configuration]) -> Judgement:
     """The largest decay time and damping ratio follow from the linearised loop's eigenvalues."""
-    section = grounds.config["mars"]
-    given = parameters(section)
-    required = section["requirements"]
-    pairs = _closed_loop_eigenvalues(given)
+    section = grounds.section
+    parameters = Parameters.from_section(section)
+    required = section.requirements
+    pairs = _closed_loop_eigenvalues(parameters)
     slowest, most_damped = _decay_and_damping(pairs)
     return judged(
-        np.isclose(slowest.max(), required["largest_decay_time_s"], rtol=1e-4)
-        and np.isclose(most_damped.max(), required["largest_damping_ratio"], rtol=1e-4),
+        np.isclose(slowest.max(), required.largest_decay_time_s, rtol=1e-4)
+        and np.isclose(most_damped.max(), required.largest_damping_ratio, rtol=1e-4),
         f"eigenvalues of the linearised loop: decay times {vector(slowest, 1)} s, damping ratios "
         f"{vector(most_damped, 3)} about axes 1, 2, 3; required at most "
-        f"{required['largest_decay_time_s']:g} s and {required['largest_damping_ratio']:g}",
+        f"{required.largest_decay_time_s:g} s and {required.largest_damping_ratio:g}",
     )
 
 
-def performance_formulas(grounds: Grounds) -> Judgement:
+def performance_formulas(grounds: Grounds[Configuration]) -> Judgement:
     """Eqs. 35 and 36 are compared with the eigenvalues of the linearised closed loop."""
-    given = parameters(grounds.config["mars"])
-    slowest, damping = _decay_and_damping(_closed_loop_eigenvalues(given))
-    by_35, by_36 = (
-        decay_times(given.inertia, given.gains),
-        damping_ratios(given.inertia, given.gains),
-    )
+    parameters = Parameters.from_section(grounds.section)
+    slowest, damping = _decay_and_damping(_closed_loop_eigenvalues(parameters))
+    by_35 = decay_times(parameters.inertia, parameters.gains)
+    by_36 = damping_ratios(parameters.inertia, parameters.gains)
     apart = max(np.max(np.abs(slowest / by_35 - 1.0)), np.max(np.abs(damping / by_36 - 1.0)))
     return judged(
         apart < 1e-4,
@@ -285,43 +287,44 @@ def performance_formulas(grounds: Grounds) -> Judgement:
     )
 
 
-def extremes_fall_on_extreme_inertias(grounds: Grounds) -> Judgement:
+def extremes_fall_on_extreme_inertias(grounds: Grounds[Configuration]) -> Judgement:
     """The extremes of decay time and damping ratio must fall on the extreme inertias."""
-    given = parameters(grounds.config["mars"])
-    slowest = int(np.argmax(decay_times(given.inertia, given.gains)))
-    damped = int(np.argmax(damping_ratios(given.inertia, given.gains)))
+    parameters = Parameters.from_section(grounds.section)
+    inertia = parameters.inertia
+    slowest = int(np.argmax(decay_times(inertia, parameters.gains)))
+    damped = int(np.argmax(damping_ratios(inertia, parameters.gains)))
     return judged(
-        slowest == int(np.argmax(given.inertia)) and damped == int(np.argmin(given.inertia)),
-        f"the largest decay time is about axis {slowest + 1} ({given.inertia[slowest]:g} kg m^2), "
-        f"the largest damping ratio about axis {damped + 1} ({given.inertia[damped]:g} kg m^2)",
+        slowest == int(np.argmax(inertia)) and damped == int(np.argmin(inertia)),
+        f"the largest decay time is about axis {slowest + 1} ({inertia[slowest]:g} kg m^2), "
+        f"the largest damping ratio about axis {damped + 1} ({inertia[damped]:g} kg m^2)",
     )
 
 
-def sun_pointing_converges(grounds: Grounds) -> Judgement:
+def sun_pointing_converges(grounds: Grounds[Configuration]) -> Judgement:
     """In Sun pointing the error must decay as required; the attitude reached is told."""
     ours, _ = _both(grounds, "sun")
     target = np.array(dcm_to_mrp(SUN_FRAME))
-    return _converges(grounds.config, ours, f"; the frame's MRPs are {vector(target, 4)}")
+    return _converges(grounds.section, ours, f"; the frame's MRPs are {vector(target, 4)}")
 
 
-def nadir_pointing_converges(grounds: Grounds) -> Judgement:
+def nadir_pointing_converges(grounds: Grounds[Configuration]) -> Judgement:
     """In nadir pointing the error must decay as required and be small at the end."""
-    return _converges(grounds.config, _both(grounds, "nadir")[0])
+    return _converges(grounds.section, _both(grounds, "nadir")[0])
 
 
-def gmo_pointing_converges(grounds: Grounds) -> Judgement:
+def gmo_pointing_converges(grounds: Grounds[Configuration]) -> Judgement:
     """In GMO pointing the error must decay as required and be small at the end."""
-    return _converges(grounds.config, _both(grounds, "gmo")[0])
+    return _converges(grounds.section, _both(grounds, "gmo")[0])
 
 
-def mission_converges(grounds: Grounds) -> Judgement:
+def mission_converges(grounds: Grounds[Configuration]) -> Judgement:
     """In every interval of the mission the error must decay as required and end small."""
     ours, _ = _both(grounds, "mission")
     mode = ours["mode"].to_numpy()
     starts = np.r_[0, np.flatnonzero(np.diff(mode[:-1])) + 1]
     ends = np.r_[starts[1:], len(mode) - 1]
     intervals = [
-        _decay(grounds.config, ours.iloc[start:end])
+        _decay(grounds.section, ours.iloc[start:end])
         for start, end in zip(starts, ends, strict=True)
     ]
     decayed = [later / allowed for _, later, allowed, _ in intervals if not np.isnan(later)]
@@ -336,15 +339,15 @@ def mission_converges(grounds: Grounds) -> Judgement:
     )
 
 
-def modes_switch_automatically(grounds: Grounds) -> Judgement:
+def modes_switch_automatically(grounds: Grounds[Configuration]) -> Judgement:
     """The mission visits all modes, and each is the one Table 7 asks for."""
-    section = grounds.config["mars"]
-    given = parameters(section)
+    section = grounds.section
+    parameters = Parameters.from_section(section)
     ours, _ = _both(grounds, "mission")
     times, mode = ours["time_s"].to_numpy(), ours["mode"].to_numpy()
-    lmo, gmo = directions(given, times)
+    lmo, gmo = directions(parameters, times)
     separation = angle_between(lmo, gmo)
-    expected = np.where(lmo[:, 1] > 0.0, 0, np.where(separation <= given.visibility, 2, 1))
+    expected = np.where(lmo[:, 1] > 0.0, 0, np.where(separation <= parameters.visibility, 2, 1))
     wrong = int(np.sum(expected != mode))
     switches = times[1:][np.diff(mode) != 0]
     if wrong == 0 and set(mode) != {0, 1, 2}:
@@ -356,10 +359,11 @@ def modes_switch_automatically(grounds: Grounds) -> Judgement:
     )
 
 
-def directions(given: Parameters, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def directions(parameters: Parameters, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Inertial directions of both spacecraft from the centre of Mars at times, s, (n, 3) each."""
     lmo, gmo = (
-        np.array([orbit_frame(orbit, t)[0] for t in times]) for orbit in (given.lmo, given.gmo)
+        np.array([orbit_frame(orbit, t)[0] for t in times])
+        for orbit in (parameters.lmo, parameters.gmo)
     )
     return lmo, gmo
 
@@ -403,12 +407,12 @@ def _frame_rate(frame, time: float, span: float = 0.1) -> np.ndarray:
     return np.array([tilde[1, 2], tilde[2, 0], tilde[0, 1]])
 
 
-def _closed_loop_eigenvalues(given: Parameters) -> np.ndarray:
+def _closed_loop_eigenvalues(parameters: Parameters) -> np.ndarray:
     """Eigenvalues of the regulator linearised at rest, shape (3, 2): a pair an axis."""
 
     def rate_of(state: np.ndarray) -> np.ndarray:
-        torque = -given.gains.k * state[:3] - given.gains.p * state[3:]
-        acceleration = angular_acceleration(given.inertia, state[3:], torque)
+        torque = -parameters.gains.k * state[:3] - parameters.gains.p * state[3:]
+        acceleration = angular_acceleration(parameters.inertia, state[3:], torque)
         return np.r_[mrp_rate(state[:3], state[3:]), acceleration]
 
     small = 1e-6
@@ -426,13 +430,13 @@ def _decay_and_damping(pairs: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return -2.0 / trace, -trace / (2.0 * np.sqrt(product))
 
 
-def _decay(config: Config, rows: pd.DataFrame) -> tuple[float, float, float, float]:
+def _decay(section: Configuration, rows: pd.DataFrame) -> tuple[float, float, float, float]:
     """Pointing error, deg: at the start, after `DECAY_TIMES`, what is allowed then, at the end.
 
     Allowed is twice the decayed initial error: an oscillating axis may be ahead of its envelope,
     and the initial rate adds to the amplitude.
     """
-    requirement = config["mars"]["requirements"]["largest_decay_time_s"]
+    requirement = section.requirements.largest_decay_time_s
     angle = attitude_angle(rows[SIGMA_REFERENCE].to_numpy(), rows[SIGMA].to_numpy())
     error = np.degrees(angle)
     time = rows["time_s"].to_numpy() - rows["time_s"].to_numpy()[0]
@@ -441,8 +445,8 @@ def _decay(config: Config, rows: pd.DataFrame) -> tuple[float, float, float, flo
     return error[0], later, 2.0 * error[0] * np.exp(-DECAY_TIMES), float(error[-1])
 
 
-def _converges(config: Config, rows: pd.DataFrame, note: str = "") -> Judgement:
-    start, later, allowed, end = _decay(config, rows)
+def _converges(section: Configuration, rows: pd.DataFrame, note: str = "") -> Judgement:
+    start, later, allowed, end = _decay(section, rows)
     if np.isnan(later):
         return Judgement("undecided", f"the run is shorter than {DECAY_TIMES:g} decay times")
     return judged(

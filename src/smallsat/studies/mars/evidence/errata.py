@@ -12,6 +12,7 @@ from smallsat.dynamics.units import KM
 from smallsat.evidence.errata import Proof
 from smallsat.evidence.grounds import Grounds
 from smallsat.evidence.printed import Printed
+from smallsat.studies.mars.configuration import Configuration
 from smallsat.studies.mars.evidence.claims import (
     MARS_DAY,
     SIGMA,
@@ -36,23 +37,23 @@ from smallsat.studies.mars.model.frames import (
     nadir_frame_rate,
 )
 from smallsat.studies.mars.model.gains import Gains, damping_ratios
-from smallsat.studies.mars.parameters import parameters
+from smallsat.studies.mars.parameters import Parameters
 
 # Place of the misprinted column of Table 8 among the mission's answer times.
 MISPRINTED_TIME = 3
 ORTHOGONAL = 1e-12  # what rounding may leave of an orthogonal matrix's defect
 
 
-def table_8_misprint(grounds: Grounds) -> Proof:
+def table_8_misprint(grounds: Grounds[Configuration]) -> Proof:
     """Table 8, 4400 s: no threshold, step or integrator gives the printed first component."""
-    section = grounds.config["mars"]
-    given = parameters(section)
-    time = section["answer_times_s"]["mission"][MISPRINTED_TIME]
-    difference = section["frame_difference_s"]["control"]
-    thresholds = sorted(set(section["mrp_switch"].values()))
-    steps = [section["step_s"] / n for n in (1, 2, 4)]
+    section = grounds.section
+    parameters = Parameters.from_section(section)
+    time = section.answer_times_s.mission[MISPRINTED_TIME]
+    difference = section.frame_difference_s.control
+    thresholds = sorted({threshold for _, threshold in section.mrp_switch})
+    steps = [section.step_s / n for n in (1, 2, 4)]
     found = [
-        _row(run(given, AUTOMATIC, time, step, difference, threshold), time, "mission")[1:4]
+        _row(run(parameters, AUTOMATIC, time, step, difference, threshold), time, "mission")[1:4]
         for step in steps
         for threshold in thresholds
     ]
@@ -64,7 +65,7 @@ def table_8_misprint(grounds: Grounds) -> Proof:
     sigma_1 = np.r_[sigma[:, 0], shadows[:, 0]]
     printed = grounds.ledger.value("table-8/sigma-b-n-at-t-4400-s/full-mission/1")
     closest = float(np.min(np.abs(sigma_1 - printed.value)))
-    ours = _row(document_runs(section, given)["mission"], time, "mission")[1]
+    ours = _row(document_runs(section, parameters)["mission"], time, "mission")[1]
     return Proof(
         closest > 2 * printed.half_unit,
         f"sigma_1 = {printed.value}",
@@ -77,11 +78,11 @@ def table_8_misprint(grounds: Grounds) -> Proof:
     )
 
 
-def nadir_frame_sign(grounds: Grounds) -> Proof:
+def nadir_frame_sign(grounds: Grounds[Configuration]) -> Proof:
     """[RnN](330 s): with the printed sign of entry (3,2) the matrix is no rotation."""
-    section = grounds.config["mars"]
-    lmo = parameters(section).lmo
-    time = float(section["answer_times_s"]["reference_frames"])
+    section = grounds.section
+    lmo = Parameters.from_section(section).lmo
+    time = float(section.answer_times_s.reference_frames)
     correct = np.array(nadir_frame(lmo, time))
     printed = correct.copy()
     printed[2, 1] *= -1.0
@@ -97,14 +98,14 @@ def nadir_frame_sign(grounds: Grounds) -> Proof:
     )
 
 
-def kinetic_energy_half(grounds: Grounds) -> Proof:
+def kinetic_energy_half(grounds: Grounds[Configuration]) -> Proof:
     """T = w' I w lacks the factor 1/2 that the printed value contains."""
-    section = grounds.config["mars"]
-    given = parameters(section)
-    time = section["answer_times_s"]["no_torque"]
-    rate = _row(document_runs(section, given)["no torque"], time, "no_torque")[4:7]
-    correct = kinetic_energy(given.inertia, rate)
-    without = float(rate @ (given.inertia * rate))
+    section = grounds.section
+    parameters = Parameters.from_section(section)
+    time = section.answer_times_s.no_torque
+    rate = _row(document_runs(section, parameters)["no torque"], time, "no_torque")[4:7]
+    correct = kinetic_energy(parameters.inertia, rate)
+    without = float(rate @ (parameters.inertia * rate))
     printed = grounds.ledger.value("section-ix-b/kinetic-energy-t-500-s/no-torque")
     return Proof(
         printed.matches(correct) and not printed.matches(without),
@@ -115,19 +116,19 @@ def kinetic_energy_half(grounds: Grounds) -> Proof:
     )
 
 
-def attitude_matrix_factor(grounds: Grounds) -> Proof:
+def attitude_matrix_factor(grounds: Grounds[Configuration]) -> Proof:
     """The printed [BN] of an MRP set lacks (1 - sigma^2) on its second term."""
-    section = grounds.config["mars"]
-    given = parameters(section)
-    time = section["answer_times_s"]["no_torque"]
-    row = _row(document_runs(section, given)["no torque"], time, "no_torque")
+    section = grounds.section
+    parameters = Parameters.from_section(section)
+    time = section.answer_times_s.no_torque
+    row = _row(document_runs(section, parameters)["no torque"], time, "no_torque")
     sigma, rate = row[1:4], row[4:7]
     tilde = np.cross(np.eye(3), -sigma)
     printed = np.eye(3) + (8 * tilde @ tilde - 4 * tilde) / (1 + sigma @ sigma) ** 2
     correct = np.array(mrp_to_dcm(sigma))
-    momentum = np.array(angular_momentum(given.inertia, rate))
-    start = np.array(angular_momentum(given.inertia, given.initial_state[3:]))
-    conserved = np.linalg.norm(np.array(mrp_to_dcm(given.initial_state[:3])).T @ start)
+    momentum = np.array(angular_momentum(parameters.inertia, rate))
+    start = np.array(angular_momentum(parameters.inertia, parameters.initial_state[3:]))
+    conserved = np.linalg.norm(np.array(mrp_to_dcm(parameters.initial_state[:3])).T @ start)
     before, after = _orthogonality_defect(printed), _orthogonality_defect(correct)
     return Proof(
         before > 1e-3 and after < ORTHOGONAL,
@@ -139,17 +140,17 @@ def attitude_matrix_factor(grounds: Grounds) -> Proof:
     )
 
 
-def gmo_frame_roots(grounds: Grounds) -> Proof:
+def gmo_frame_roots(grounds: Grounds[Configuration]) -> Proof:
     """Eqs. 30 and 31 divide by squared lengths: the rows are not of length one."""
-    section = grounds.config["mars"]
-    given = parameters(section)
-    time = float(section["answer_times_s"]["reference_frames"])
-    a, b, c = np.subtract(position(given.gmo, time), position(given.lmo, time)) / KM
+    section = grounds.section
+    parameters = Parameters.from_section(section)
+    time = float(section.answer_times_s.reference_frames)
+    a, b, c = np.subtract(position(parameters.gmo, time), position(parameters.lmo, time)) / KM
     rows = np.array([[-a, -b, -c], [b, -a, 0.0], [-a * c, -b * c, a * a + b * b]])
     flat, full = a * a + b * b, a * a + b * b + c * c
     squared = np.array([full, flat, flat * full])[:, None]
     printed, correct = rows / squared, rows / np.sqrt(squared)
-    by_definition = np.array(gmo_frame(given.lmo, given.gmo, time))
+    by_definition = np.array(gmo_frame(parameters.lmo, parameters.gmo, time))
     lengths = np.linalg.norm(printed, axis=1)
     return Proof(
         np.all(np.abs(lengths - 1) > 0.5)
@@ -162,31 +163,32 @@ def gmo_frame_roots(grounds: Grounds) -> Proof:
     )
 
 
-def gain_name(grounds: Grounds) -> Proof:
+def gain_name(grounds: Grounds[Configuration]) -> Proof:
     """The summary's "K = 1/6" is P: with it as K the damping requirement is missed."""
-    section = grounds.config["mars"]
-    given = parameters(section)
-    wrong = damping_ratios(given.inertia, Gains(k=given.gains.p, p=given.gains.p)).max()
-    right = damping_ratios(given.inertia, given.gains).max()
-    required = section["requirements"]["largest_damping_ratio"]
+    section = grounds.section
+    parameters = Parameters.from_section(section)
+    k, p = parameters.gains
+    wrong = damping_ratios(parameters.inertia, Gains(k=p, p=p)).max()
+    right = damping_ratios(parameters.inertia, parameters.gains).max()
+    required = section.requirements.largest_damping_ratio
     return Proof(
         np.isclose(right, required) and not np.isclose(wrong, required),
-        f"K = {given.gains.p:.4f}: largest damping ratio {wrong:.2f}",
-        f"K = {given.gains.k:.4f}, P = {given.gains.p:.4f}: largest ratio {right:.2f}",
-        f"Eq. 36 gives a largest damping ratio of {wrong:.3f} with K = {given.gains.p:.4f} and "
-        f"of {right:.3f} with K = {given.gains.k:.5f}; required is {required:g}",
+        f"K = {p:.4f}: largest damping ratio {wrong:.2f}",
+        f"K = {k:.4f}, P = {p:.4f}: largest ratio {right:.2f}",
+        f"Eq. 36 gives a largest damping ratio of {wrong:.3f} with K = {p:.4f} and "
+        f"of {right:.3f} with K = {k:.5f}; required is {required:g}",
     )
 
 
-def gain_fraction(grounds: Grounds) -> Proof:
+def gain_fraction(grounds: Grounds[Configuration]) -> Proof:
     """The intermediate fraction (1/36)/(3/5) is not the printed result 1/180; (1/36)/5 is."""
-    section = grounds.config["mars"]
-    given = parameters(section)
-    inertia, required = given.inertia.min(), section["requirements"]["largest_damping_ratio"]
+    section = grounds.section
+    parameters = Parameters.from_section(section)
+    inertia, required = parameters.inertia.min(), section.requirements.largest_damping_ratio
     printed = grounds.ledger.value("section-x-b/k-intermediate-fraction").value
-    correct = given.gains.p**2 / (required**2 * inertia)
+    correct = parameters.gains.p**2 / (required**2 * inertia)
     return Proof(
-        np.isclose(correct, given.gains.k) and not np.isclose(printed, given.gains.k),
+        np.isclose(correct, parameters.gains.k) and not np.isclose(printed, parameters.gains.k),
         f"{printed:.5f}",
         f"{correct:.5f}",
         f"P^2 over 3/5 is {printed:.5f}; P^2 over the smallest inertia {inertia:g} kg m^2 is "
@@ -195,11 +197,11 @@ def gain_fraction(grounds: Grounds) -> Proof:
     )
 
 
-def argument_of_latitude_start(grounds: Grounds) -> Proof:
+def argument_of_latitude_start(grounds: Grounds[Configuration]) -> Proof:
     """theta(t) = rate t omits theta(t0): without it the verified position does not come out."""
-    section = grounds.config["mars"]
-    lmo = parameters(section).lmo
-    time = float(section["answer_times_s"]["position_lmo"])
+    section = grounds.section
+    lmo = Parameters.from_section(section).lmo
+    time = float(section.answer_times_s.position_lmo)
     correct = np.array(position(lmo, time)) / KM
     without = np.array(position(lmo._replace(argument_of_latitude=0.0), time)) / KM
     printed = grounds.ledger.values("section-iii-c/inertial-position-r-lmo-450-s/lmo")
@@ -213,11 +215,11 @@ def argument_of_latitude_start(grounds: Grounds) -> Proof:
     )
 
 
-def visibility_overlap(grounds: Grounds) -> Proof:
+def visibility_overlap(grounds: Grounds[Configuration]) -> Proof:
     """Table 1's footnotes call the mothercraft visible and not visible at exactly the limit."""
-    section = grounds.config["mars"]
-    given = parameters(section)
-    limit = section["visibility_deg"]
+    section = grounds.section
+    parameters = Parameters.from_section(section)
+    limit = section.visibility_deg
     angles = np.array([limit - 1.0, limit, limit + 1.0])
     visible, hidden = (
         grounds.ledger.literal(f"table-1-footnote/{name}-lmo-gmo-angular-separation")
@@ -227,7 +229,7 @@ def visibility_overlap(grounds: Grounds) -> Proof:
     corrected = _meets(angles, visible).astype(int) + (angles > limit)
     day = grounds.table("day.parquet")
     times = day["time_s"].to_numpy()[:: max(1, len(day) // 20000)]
-    separation = np.degrees(angle_between(*directions(given, times)))
+    separation = np.degrees(angle_between(*directions(parameters, times)))
     closest = np.min(np.abs(separation - limit))
     return Proof(
         np.any(as_printed != 1) and np.all(corrected == 1),
@@ -260,9 +262,9 @@ def second_rate_panel(grounds: Grounds) -> Proof:
     )
 
 
-def reference_rate_frame(grounds: Grounds) -> Proof:
+def reference_rate_frame(grounds: Grounds[Configuration]) -> Proof:
     """Figs. 7, 8 and 10 compare the body rate with the reference's rate in inertial components."""
-    given = parameters(grounds.config["mars"])
+    parameters = Parameters.from_section(grounds.section)
     last = grounds.rows("trajectories.parquet", run="nadir").iloc[-1]
     body_rate, reference_rate = (
         last[[f"{name}_{axis}" for axis in "123"]].to_numpy(dtype=float)
@@ -270,10 +272,10 @@ def reference_rate_frame(grounds: Grounds) -> Proof:
     )
     if not np.isfinite(body_rate).all():
         raise LookupError("the run 'nadir' overflowed")
-    inertial = np.array(nadir_frame_rate(given.lmo, float(last["time_s"])))
+    inertial = np.array(nadir_frame_rate(parameters.lmo, float(last["time_s"])))
     apart, correct = (float(np.linalg.norm(body_rate - one)) for one in (inertial, reference_rate))
     return Proof(
-        apart > 0.1 * given.lmo.rate > 10.0 * correct,
+        apart > 0.1 * parameters.lmo.rate > 10.0 * correct,
         f"omega_R/N = {vector(1e6 * inertial, 0)}e-6 rad/s, inertial components",
         f"omega_R/N = {vector(1e6 * reference_rate, 0)}e-6 rad/s, body components",
         f"At the end of the nadir run the body rate is {vector(1e6 * body_rate, 0)}e-6 rad/s: "
@@ -282,9 +284,9 @@ def reference_rate_frame(grounds: Grounds) -> Proof:
     )
 
 
-def day_length(grounds: Grounds) -> Proof:
+def day_length(grounds: Grounds[Configuration]) -> Proof:
     """The commented-out 90000 s is no Mars day; 88620 s is the mothercraft's period."""
-    period = 2.0 * np.pi / grounds.config["mars"]["orbits"]["gmo"]["rate_rad_s"]
+    period = 2.0 * np.pi / grounds.section.orbits.gmo.rate_rad_s
     listed = grounds.ledger.value("listing-a-l-task-11/tf-commented-out/day-long-run")
     day = grounds.ledger.value(MARS_DAY)
     return Proof(
@@ -297,18 +299,18 @@ def day_length(grounds: Grounds) -> Proof:
     )
 
 
-def switch_thresholds(grounds: Grounds) -> Proof:
+def switch_thresholds(grounds: Grounds[Configuration]) -> Proof:
     """The tasks' different MRP switch thresholds change no attitude."""
-    section = grounds.config["mars"]
-    given = parameters(section)
-    step, difference = section["step_s"], section["frame_difference_s"]["control"]
-    thresholds = sorted(set(section["mrp_switch"].values()))
-    durations = section["durations_s"]
-    commands = [(mode, durations["response"]) for mode in POINTING_RUNS.values()]
-    commands.append((AUTOMATIC, durations["mission"]))
+    section = grounds.section
+    parameters = Parameters.from_section(section)
+    step, difference = section.step_s, section.frame_difference_s.control
+    thresholds = sorted({threshold for _, threshold in section.mrp_switch})
+    durations = section.durations_s
+    commands = [(mode, durations.response) for mode in POINTING_RUNS.values()]
+    commands.append((AUTOMATIC, durations.mission))
     worst = 0.0
     for command, duration in commands:
-        records = [run(given, command, duration, step, difference, one) for one in thresholds]
+        records = [run(parameters, command, duration, step, difference, one) for one in thresholds]
         if not all(map(finite, records)):
             raise LookupError("a run overflowed")
         attitudes = [Rotation.from_mrp(record[:, 1:4].copy()) for record in records]
@@ -323,10 +325,10 @@ def switch_thresholds(grounds: Grounds) -> Proof:
     )
 
 
-def tracking_rate_formula(grounds: Grounds) -> Proof:
+def tracking_rate_formula(grounds: Grounds[Configuration]) -> Proof:
     """Section VIII.A subtracts the body rate from itself: Table 3 does not follow."""
-    section = grounds.config["mars"]
-    state = parameters(section).initial_state
+    section = grounds.section
+    state = Parameters.from_section(section).initial_state
     _, correct = tracking_error(state[:3], state[3:], SUN_FRAME, SUN_FRAME_RATE)
     body = np.array(mrp_to_dcm(state[:3]))
     printed = state[3:] - state[3:] - body @ np.array(SUN_FRAME_RATE)

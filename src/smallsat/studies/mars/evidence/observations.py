@@ -6,13 +6,13 @@ from math import isnan
 
 import numpy as np
 
-from smallsat.config import Config
 from smallsat.dynamics.attitude.mrp import dcm_to_mrp, mrp_to_dcm, shadow
 from smallsat.dynamics.attitude.rigid_body import angular_momentum, kinetic_energy
 from smallsat.dynamics.orbits.circular_orbits import hill_frame, position, velocity
 from smallsat.dynamics.units import KM
 from smallsat.errors import InputError
 from smallsat.evidence.observation import Observation
+from smallsat.studies.mars.configuration import Configuration
 from smallsat.studies.mars.methods.simulation import POINTING_RUNS, START, reference, tracking_error
 from smallsat.studies.mars.model.frames import (
     SUN_FRAME,
@@ -32,26 +32,26 @@ MISSION_TIMES = ("300", "2100", "3400", "4400", "5600")
 
 
 def observations(
-    section: Config, given: Parameters, runs: Mapping[str, np.ndarray]
+    section: Configuration, parameters: Parameters, runs: Mapping[str, np.ndarray]
 ) -> list[Observation]:
     """All observations.
 
     Parameters
     ----------
     section
-        The configuration's ``mars`` section.
-    given
+        The section of the configuration.
+    parameters
         The same in SI units.
     runs
         Records of the document's runs, from
         `smallsat.studies.mars.methods.simulation.document_runs`; not a number where one overflowed.
     """
     found = [
-        *_orbits(section, given),
-        *_frames(section, given),
-        *_initial_tracking_errors(section, given),
-        *_torque_runs(section, given, runs),
-        *_gains(given),
+        *_orbits(section, parameters),
+        *_frames(section, parameters),
+        *_initial_tracking_errors(section, parameters),
+        *_torque_runs(section, parameters, runs),
+        *_gains(parameters),
         *_pointing_runs(section, runs),
     ]
     return [replace(one, note=OVERFLOW) if isnan(one.computed) else one for one in found]
@@ -78,65 +78,68 @@ def _matrix(stem: str, values) -> Iterator[Observation]:
     yield from _vector(stem, entries, np.ravel(values))
 
 
-def _orbits(section: Config, given: Parameters) -> Iterator[Observation]:
-    times = section["answer_times_s"]
-    for name, orbit, label in (("lmo", given.lmo, "450"), ("gmo", given.gmo, "1150")):
+def _orbits(section: Configuration, parameters: Parameters) -> Iterator[Observation]:
+    times = section.answer_times_s
+    for name, orbit, label in (("lmo", parameters.lmo, "450"), ("gmo", parameters.gmo, "1150")):
         time = float(times[f"position_{name}"])
         r, v = np.array(position(orbit, time)), np.array(velocity(orbit, time))
         where = "section-iii-c/inertial"
         yield from _vector(f"{where}-position-r-{name}-{label}-s/{name}", "xyz", r / KM)
         yield from _vector(f"{where}-velocity-rdot-{name}-{label}-s/{name}", "xyz", v / KM)
-    time = float(times["hill_frame"])
-    frame = hill_frame(position(given.lmo, time), velocity(given.lmo, time))
+    time = float(times.hill_frame)
+    frame = hill_frame(position(parameters.lmo, time), velocity(parameters.lmo, time))
     yield from _matrix("section-iv-c/dcm-hn-300-s/lmo", frame)
 
 
-def _frames(section: Config, given: Parameters) -> Iterator[Observation]:
-    time = float(section["answer_times_s"]["reference_frames"])
-    difference = float(section["frame_difference_s"]["tracking_error"])
+def _frames(section: Configuration, parameters: Parameters) -> Iterator[Observation]:
+    time = float(section.answer_times_s.reference_frames)
+    difference = float(section.frame_difference_s.tracking_error)
     yield from _matrix("equation-19/dcm-rsn", SUN_FRAME)
     for number, axis in enumerate(SUN_FRAME, start=1):
         yield from _vector(f"section-v-a/r-{number}-in-n", "xyz", axis)
     yield from _vector("section-v-d/omega-rs-n", "xyz", SUN_FRAME_RATE)
-    yield from _matrix("section-vi-d/dcm-rnn-330-s/lmo", nadir_frame(given.lmo, time))
-    rate = nadir_frame_rate(given.lmo, time)
+    yield from _matrix("section-vi-d/dcm-rnn-330-s/lmo", nadir_frame(parameters.lmo, time))
+    rate = nadir_frame_rate(parameters.lmo, time)
     yield from _vector("section-vi-e/omega-rn-n-330-s/lmo", "xyz", rate)
-    frame = gmo_frame(given.lmo, given.gmo, time)
+    frame = gmo_frame(parameters.lmo, parameters.gmo, time)
     yield from _matrix("section-vii-d/dcm-rcn-330-s/lmo-gmo", frame)
-    rate = gmo_frame_rate(given.lmo, given.gmo, time, difference)
+    rate = gmo_frame_rate(parameters.lmo, parameters.gmo, time, difference)
     yield from _vector("section-vii-e/omega-rc-n-330-s/lmo-gmo", "xyz", rate)
 
 
-def _initial_tracking_errors(section: Config, given: Parameters) -> Iterator[Observation]:
-    difference = float(section["frame_difference_s"]["tracking_error"])
-    state = given.initial_state
+def _initial_tracking_errors(
+    section: Configuration, parameters: Parameters
+) -> Iterator[Observation]:
+    difference = float(section.frame_difference_s.tracking_error)
+    state = parameters.initial_state
     for name, mode in POINTING_RUNS.items():
-        frame, frame_rate = reference(mode, given.lmo, given.gmo, START, difference)
+        frame, frame_rate = reference(mode, parameters.lmo, parameters.gmo, START, difference)
         sigma, rate = tracking_error(state[:3], state[3:], frame, frame_rate)
         yield from _vector(f"table-3/sigma-b-r-t0/{name}-pointing", "123", sigma)
         yield from _vector(f"table-3/omega-b-r-t0/{name}-pointing", "123", rate)
 
 
 def _torque_runs(
-    section: Config, given: Parameters, runs: Mapping[str, np.ndarray]
+    section: Configuration, parameters: Parameters, runs: Mapping[str, np.ndarray]
 ) -> Iterator[Observation]:
-    times = section["answer_times_s"]
-    row = row_at(runs["no torque"], times["no_torque"], "no_torque")
+    times = section.answer_times_s
+    row = row_at(runs["no torque"], times.no_torque, "no_torque")
     sigma, rate = row[1:4], row[4:7]
-    momentum = np.array(angular_momentum(given.inertia, rate))
+    momentum = np.array(angular_momentum(parameters.inertia, rate))
     where = "section-ix-b/angular-momentum"
     yield from _vector(f"{where}-body-frame-h-500-s/no-torque", "123", momentum)
     inertial = np.array(mrp_to_dcm(sigma)).T @ momentum
     yield from _vector(f"{where}-inertial-frame-h-500-s/no-torque", "123", inertial)
     yield Observation(
-        "mars/section-ix-b/kinetic-energy-t-500-s/no-torque", kinetic_energy(given.inertia, rate)
+        "mars/section-ix-b/kinetic-energy-t-500-s/no-torque",
+        kinetic_energy(parameters.inertia, rate),
     )
-    row = row_at(runs["fixed torque"], times["fixed_torque"], "fixed_torque")
+    row = row_at(runs["fixed torque"], times.fixed_torque, "fixed_torque")
     yield from _vector("section-ix-c/sigma-b-n-100-s/fixed-torque", "123", row[1:4])
 
 
-def _gains(given: Parameters) -> Iterator[Observation]:
-    k, p = given.gains
+def _gains(parameters: Parameters) -> Iterator[Observation]:
+    k, p = parameters.gains
     # The document sums up with two gains, both called K; the first value is P's.
     values = {
         "p-2-i-1-t-max": p,
@@ -151,14 +154,14 @@ def _gains(given: Parameters) -> Iterator[Observation]:
         yield Observation(f"mars/section-x-b/{name}", value)
 
 
-def _pointing_runs(section: Config, runs: Mapping[str, np.ndarray]) -> Iterator[Observation]:
-    times = section["answer_times_s"]
+def _pointing_runs(section: Configuration, runs: Mapping[str, np.ndarray]) -> Iterator[Observation]:
+    times = section.answer_times_s
     # A what-if configuration may ask for fewer times than the document has.
     for name, table in POINTING_TABLES.items():
-        for label, time in zip(POINTING_TIMES, times["pointing"], strict=False):
+        for label, time in zip(POINTING_TIMES, times.pointing, strict=False):
             sigma = row_at(runs[name], time, "pointing")[1:4]
             yield from _vector(f"{table}/sigma-b-n-at-t-{label}-s/{name}-pointing", "123", sigma)
-    for label, time in zip(MISSION_TIMES, times["mission"], strict=False):
+    for label, time in zip(MISSION_TIMES, times.mission, strict=False):
         sigma = row_at(runs["mission"], time, "mission")[1:4]
         yield from _vector(f"table-8/sigma-b-n-at-t-{label}-s/full-mission", "123", sigma)
 

@@ -37,32 +37,32 @@ WIDTH, HEIGHT, DPI = 960, 544, 100
 HIDDEN_ALPHA = 0.3  # of a spacecraft behind the planet
 
 
-def frames(given: Parameters, trajectory: pd.DataFrame, times: np.ndarray) -> Iterator[bytes]:
+def frames(parameters: Parameters, trajectory: pd.DataFrame, times: np.ndarray) -> Iterator[bytes]:
     """RGBA pictures of the scene at the times, s, each of ``WIDTH`` by ``HEIGHT`` pixels."""
     with mpl.rc_context({"figure.constrained_layout.use": False, "font.size": 11}):
         figure = Figure(figsize=(WIDTH / DPI, HEIGHT / DPI), dpi=DPI)
         canvas = FigureCanvasAgg(figure)
-        moving = _Moving(figure, given)
+        moving = _Moving(figure, parameters)
         canvas.draw()
         still = canvas.copy_from_bbox(figure.bbox)
         for time in times:
             canvas.restore_region(still)
-            moving.show(scene_in(given, trajectory, float(time)))
+            moving.show(scene_in(parameters, trajectory, float(time)))
             yield canvas.buffer_rgba().tobytes()
 
 
 class _Moving:
     """The artists that change from frame to frame, on a figure with everything that does not."""
 
-    def __init__(self, figure: Figure, given: Parameters) -> None:
-        self.given = given
-        self.length = ARROW * given.lmo.radius / KM
-        wide = view(figure, (0.0, 0.06, 0.5, 0.88), 0.93 * given.gmo.radius / KM, zoom=1.45)
-        near = view(figure, (0.5, 0.06, 0.5, 0.88), NEAR * given.lmo.radius / KM, zoom=1.05)
-        draw_orbit(wide, given.gmo, given, "C3")
+    def __init__(self, figure: Figure, parameters: Parameters) -> None:
+        self.parameters = parameters
+        self.length = ARROW * parameters.lmo.radius / KM
+        wide = view(figure, (0.0, 0.06, 0.5, 0.88), 0.93 * parameters.gmo.radius / KM, zoom=1.45)
+        near = view(figure, (0.5, 0.06, 0.5, 0.88), NEAR * parameters.lmo.radius / KM, zoom=1.05)
+        draw_orbit(wide, parameters.gmo, parameters, "C3")
         for axes in (wide, near):
-            draw_mars(axes, given.mars_radius / KM)
-            draw_orbit(axes, given.lmo, given, "C0")
+            draw_mars(axes, parameters.mars_radius / KM)
+            draw_orbit(axes, parameters.lmo, parameters, "C0")
         draw_directions(figure, (0.38, 0.02, 0.24, 0.36))
         figure.legend(handles=legend_handles(), loc="lower center", ncols=3, frameon=False)
 
@@ -92,7 +92,7 @@ class _Moving:
         self.mothercraft.set_data_3d(*scene.gmo[:, None])
         self.sight.set_data_3d(*np.array([scene.lmo, scene.gmo]).T)
         self.sight.set_visible(scene.mode == GMO)
-        alpha = 1.0 if in_front(scene.lmo, self.given) else HIDDEN_ALPHA
+        alpha = 1.0 if in_front(scene.lmo, self.parameters) else HIDDEN_ALPHA
         for dot in self.satellite:
             dot.set_data_3d(*scene.lmo[:, None])
         directions = [*scene.body_axes, -scene.body_axes[0]]

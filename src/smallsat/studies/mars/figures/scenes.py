@@ -57,20 +57,20 @@ class Scene:
     body_axes: np.ndarray
 
 
-def scene_in(given: Parameters, trajectory: pd.DataFrame, time: float) -> Scene:
+def scene_in(parameters: Parameters, trajectory: pd.DataFrame, time: float) -> Scene:
     """The scene at a time, s, of a run with the columns ``time_s``, ``sigma_1..3`` and ``mode``."""
     row = trajectory.iloc[int(np.argmin(np.abs(trajectory["time_s"].to_numpy() - time)))]
     sigma = row[["sigma_1", "sigma_2", "sigma_3"]].to_numpy(dtype=float)
-    return scene_at(given, float(row["time_s"]), sigma, int(row["mode"]))
+    return scene_at(parameters, float(row["time_s"]), sigma, int(row["mode"]))
 
 
-def scene_at(given: Parameters, time: float, sigma: np.ndarray, mode: int) -> Scene:
+def scene_at(parameters: Parameters, time: float, sigma: np.ndarray, mode: int) -> Scene:
     """Positions and body axes at a time, s, for an attitude sigma_B/N, shape (3,)."""
     return Scene(
         time=time,
         mode=mode,
-        lmo=np.array(position(given.lmo, time)) / KM,
-        gmo=np.array(position(given.gmo, time)) / KM,
+        lmo=np.array(position(parameters.lmo, time)) / KM,
+        gmo=np.array(position(parameters.gmo, time)) / KM,
         body_axes=np.array(mrp_to_dcm(sigma)),
     )
 
@@ -86,23 +86,23 @@ def scene_data(scene: Scene) -> pd.DataFrame:
     return table.rename_axis("item").reset_index()
 
 
-def scene_figure(given: Parameters, scene: Scene) -> Figure:
+def scene_figure(parameters: Parameters, scene: Scene) -> Figure:
     """The whole scene on the left, the nano-satellite's surroundings on the right."""
     figure = new_figure(figsize=(6.3, 3.4))
     figure.set_layout_engine("none")
-    wide = view(figure, (0.0, 0.12, 0.5, 0.85), 0.93 * given.gmo.radius / KM, zoom=1.45)
-    near = view(figure, (0.5, 0.06, 0.5, 0.88), NEAR * given.lmo.radius / KM, zoom=1.05)
-    draw_orbit(wide, given.gmo, given, "C3")
+    wide = view(figure, (0.0, 0.12, 0.5, 0.85), 0.93 * parameters.gmo.radius / KM, zoom=1.45)
+    near = view(figure, (0.5, 0.06, 0.5, 0.88), NEAR * parameters.lmo.radius / KM, zoom=1.05)
+    draw_orbit(wide, parameters.gmo, parameters, "C3")
     for axes in (wide, near):
-        draw_mars(axes, given.mars_radius / KM)
-        draw_orbit(axes, given.lmo, given, "C0")
-    order = 10.0 if in_front(scene.lmo, given) else 0.5
+        draw_mars(axes, parameters.mars_radius / KM)
+        draw_orbit(axes, parameters.lmo, parameters, "C0")
+    order = 10.0 if in_front(scene.lmo, parameters) else 0.5
     wide.plot(*scene.gmo, "o", color="C3", ms=6, zorder=9)
     for axes in (wide, near):
         axes.plot(*scene.lmo, "o", color="black", ms=4.5, zorder=order)
     known = bool(np.isfinite(scene.body_axes).all())
     if known:
-        draw_body_axes(near, scene, ARROW * given.lmo.radius / KM, order)
+        draw_body_axes(near, scene, ARROW * parameters.lmo.radius / KM, order)
     if scene.mode == GMO:
         ends = np.array([scene.lmo, scene.gmo])
         wide.plot(*ends.T, color="C3", lw=1.0, ls=":", zorder=8)
@@ -158,20 +158,20 @@ def draw_mars(axes: Axes3D, radius: float) -> None:
     )
 
 
-def draw_orbit(axes: Axes3D, orbit: CircularOrbit, given: Parameters, colour: str) -> None:
+def draw_orbit(axes: Axes3D, orbit: CircularOrbit, parameters: Parameters, colour: str) -> None:
     """A full revolution; what lies behind the planet is drawn behind it."""
     period = 2.0 * np.pi / orbit.rate
     points = np.array([position(orbit, t) for t in np.linspace(0.0, period, 241)]) / KM
-    front = np.array([in_front(point, given) for point in points])
+    front = np.array([in_front(point, parameters) for point in points])
     for shown, order in ((front, 5.0), (~front, 0.0)):
         axes.plot(*np.where(shown[:, None], points, np.nan).T, color=colour, lw=0.9, zorder=order)
 
 
-def in_front(point: np.ndarray, given: Parameters) -> bool:
+def in_front(point: np.ndarray, parameters: Parameters) -> bool:
     """Whether a point, km, is not hidden by the planet."""
     depth = float(point @ TO_CAMERA)
     beside = np.linalg.norm(point - depth * TO_CAMERA)
-    return bool(depth > 0.0 or beside > given.mars_radius / KM)
+    return bool(depth > 0.0 or beside > parameters.mars_radius / KM)
 
 
 def draw_body_axes(axes: Axes3D, scene: Scene, length: float, order: float) -> None:

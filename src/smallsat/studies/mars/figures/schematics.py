@@ -21,13 +21,13 @@ from smallsat.studies.mars.figures.scenes import BODY_COLOURS, DAY_COLOUR, NIGHT
 from smallsat.studies.mars.parameters import Parameters
 
 
-def mission_geometry(given: Parameters) -> Drawing:
+def mission_geometry(parameters: Parameters) -> Drawing:
     """Both orbits at time zero from above the inertial third axis, to scale; the night side."""
     figure, axes = subplots(figsize=(4.6, 4.6))
-    mars, gmo_radius = given.mars_radius / KM, given.gmo.radius / KM
+    mars, gmo_radius = parameters.mars_radius / KM, parameters.gmo.radius / KM
     edge = 1.3 * gmo_radius
     axes.add_patch(Rectangle((-edge, -edge), 2 * edge, edge, color="#e8e8ee", lw=0, zorder=0))
-    orbits = {"nano-satellite": (given.lmo, "C0"), "mothercraft": (given.gmo, "C3")}
+    orbits = {"nano-satellite": (parameters.lmo, "C0"), "mothercraft": (parameters.gmo, "C3")}
     rows = []
     for name, (orbit, colour) in orbits.items():
         period = 2.0 * np.pi / orbit.rate
@@ -36,8 +36,8 @@ def mission_geometry(given: Parameters) -> Drawing:
         x, y, z = np.array(position(orbit, 0.0)) / KM
         axes.plot(x, y, "o", color=colour, ms=6, zorder=4)
         rows.append({"item": name, "x_km": x, "y_km": y, "z_km": z})
-    gmo = np.array(position(given.gmo, 0.0)) / KM
-    towards, half = np.degrees(np.arctan2(gmo[1], gmo[0])), np.degrees(given.visibility)
+    gmo = np.array(position(parameters.gmo, 0.0)) / KM
+    towards, half = np.degrees(np.arctan2(gmo[1], gmo[0])), np.degrees(parameters.visibility)
     axes.add_patch(
         Wedge((0, 0), gmo_radius, towards - half, towards + half, color="C3", alpha=0.12, lw=0)
     )
@@ -63,9 +63,9 @@ def mission_geometry(given: Parameters) -> Drawing:
     return figure, pd.DataFrame(rows)
 
 
-def body_frame(given: Parameters) -> Drawing:
+def body_frame(parameters: Parameters) -> Drawing:
     """The body axes and what looks along them, on the uniform box with the given inertia."""
-    first, second, third = given.inertia
+    first, second, third = parameters.inertia
     squares = np.array([second + third - first, first + third - second, first + second - third])
     # Side lengths up to a factor; a thin plate is drawn where the inertias allow no box.
     sides = np.sqrt(np.maximum(squares, 0.02 * squares.max()))
@@ -90,7 +90,7 @@ def body_frame(given: Parameters) -> Drawing:
             axes, direction * sides[i] / 2, direction * 0.75, label, BODY_COLOURS[i], side=beside[i]
         )
         rows.append(
-            {"axis": f"b{i + 1}", "use": use, "side": sides[i], "inertia": given.inertia[i]}
+            {"axis": f"b{i + 1}", "use": use, "side": sides[i], "inertia": parameters.inertia[i]}
         )
     _arrow(
         axes, [-sides[0] / 2, 0, 0], [-0.85, 0, 0], "$-b_1$: antenna", BODY_COLOURS[0], ":", "right"

@@ -3,9 +3,11 @@
 from collections.abc import Mapping
 from typing import Any
 
-from smallsat.config import Config
+from smallsat.studies.mars.configuration import Configuration
 
 
-def is_drawn(section: Config, notebook: str, what: Any, parameters: Mapping[str, Any]) -> bool:
+def is_drawn(
+    section: Configuration, notebook: str, what: Any, parameters: Mapping[str, Any]
+) -> bool:
     """Whether the configuration has what a figure shows."""
-    return notebook != "scenes" or what < len(section["answer_times_s"]["mission"])
+    return notebook != "scenes" or what < len(section.answer_times_s.mission)

@@ -10,7 +10,7 @@ import pandas as pd
 from scipy.integrate import ode
 from scipy.spatial.transform import Rotation
 
-from smallsat.config import Config
+from smallsat.studies.mars.configuration import Configuration
 from smallsat.studies.mars.methods.simulation import AUTOMATIC, NO_TORQUE, OPEN_LOOP, POINTING_RUNS
 from smallsat.studies.mars.model.modes import GMO, NADIR, SUN, SUNLIT_ABOVE
 from smallsat.studies.mars.parameters import Parameters
@@ -20,7 +20,7 @@ ABSOLUTE_TOLERANCE = 1e-12
 
 
 def integrate_again(
-    given: Parameters,
+    parameters: Parameters,
     command: int,
     duration: float,
     step: float,
@@ -31,7 +31,7 @@ def integrate_again(
 
     Parameters
     ----------
-    given
+    parameters
         The study's parameters.
     command
         A pointing mode, AUTOMATIC or OPEN_LOOP.
@@ -47,10 +47,10 @@ def integrate_again(
         a number from where the motion is too fast for the integrator.
     """
     times = step * np.arange(round(duration / step) + 1)
-    to_inertial, frame_rate = _references(given, command, times, difference)
-    inertia = given.inertia.tolist()
-    rotation = Rotation.from_mrp(given.initial_state[:3])
-    state = np.r_[rotation.as_quat(), given.initial_state[3:]]
+    to_inertial, frame_rate = _references(parameters, command, times, difference)
+    inertia = parameters.inertia.tolist()
+    rotation = Rotation.from_mrp(parameters.initial_state[:3])
+    state = np.r_[rotation.as_quat(), parameters.initial_state[3:]]
     torque = np.asarray(open_loop_torque, dtype=float)
 
     solver = ode(_state_rate).set_integrator(
@@ -63,7 +63,7 @@ def integrate_again(
             body = Rotation.from_quat(state[:4])
             sigma = (Rotation.from_quat(to_inertial[k]).inv() * body).as_mrp()
             rate = state[4:] - body.apply(frame_rate[k], inverse=True)
-            torque = -given.gains.k * sigma - given.gains.p * rate
+            torque = -parameters.gains.k * sigma - parameters.gains.p * rate
         solver.set_initial_value(state, time).set_f_params(inertia, torque.tolist())
         state = solver.integrate(times[k + 1])
         if not solver.successful():
@@ -79,20 +79,22 @@ def integrate_again(
     return pd.DataFrame(table, columns=["time_s", *names])
 
 
-def check_runs(section: Config, given: Parameters) -> pd.DataFrame:
+def check_runs(section: Configuration, parameters: Parameters) -> pd.DataFrame:
     """All of the document's runs by `integrate_again`, with a column ``run``."""
-    durations = section["durations_s"]
-    fixed_torque = np.array(section["fixed_torque_N_m"], dtype=float)
+    durations = section.durations_s
+    fixed_torque = np.array(section.fixed_torque_N_m, dtype=float)
     runs = {
-        "no torque": (OPEN_LOOP, durations["response"], NO_TORQUE),
-        "fixed torque": (OPEN_LOOP, durations["response"], fixed_torque),
-        **{n: (mode, durations["response"], NO_TORQUE) for n, mode in POINTING_RUNS.items()},
-        "mission": (AUTOMATIC, durations["mission"], NO_TORQUE),
+        "no torque": (OPEN_LOOP, durations.response, NO_TORQUE),
+        "fixed torque": (OPEN_LOOP, durations.response, fixed_torque),
+        **{n: (mode, durations.response, NO_TORQUE) for n, mode in POINTING_RUNS.items()},
+        "mission": (AUTOMATIC, durations.mission, NO_TORQUE),
     }
-    step, difference = section["step_s"], section["frame_difference_s"]["control"]
+    step, difference = section.step_s, section.frame_difference_s.control
     return pd.concat(
         [
-            integrate_again(given, command, duration, step, difference, torque).assign(run=name)
+            integrate_again(parameters, command, duration, step, difference, torque).assign(
+                run=name
+            )
             for name, (command, duration, torque) in runs.items()
         ],
         ignore_index=True,
@@ -126,13 +128,13 @@ def _state_rate(time: float, y: np.ndarray, inertia: list[float], torque: list[f
     ]
 
 
-def _references(given: Parameters, command: int, times: np.ndarray, difference: float):
+def _references(parameters: Parameters, command: int, times: np.ndarray, difference: float):
     """Quaternions from reference to inertial, (n, 4), and rates, (n, 3), at all times."""
-    lmo, normal = _orbit(given.lmo, times)
-    gmo, _ = _orbit(given.gmo, times)
+    lmo, normal = _orbit(parameters.lmo, times)
+    gmo, _ = _orbit(parameters.gmo, times)
     separation = np.arccos(np.clip(np.sum(_unit(lmo) * _unit(gmo), axis=1), -1.0, 1.0))
     mode = np.where(
-        lmo[:, 1] > SUNLIT_ABOVE, SUN, np.where(separation <= given.visibility, GMO, NADIR)
+        lmo[:, 1] > SUNLIT_ABOVE, SUN, np.where(separation <= parameters.visibility, GMO, NADIR)
     )
     if command != AUTOMATIC:
         mode[:] = command
@@ -142,7 +144,7 @@ def _references(given: Parameters, command: int, times: np.ndarray, difference: 
     nadir = np.stack([-_unit(lmo), np.cross(normal, _unit(lmo)), -normal], axis=2)
     gmo_now = _to_mothercraft(lmo, gmo)
     gmo_then = _to_mothercraft(
-        _orbit(given.lmo, times + difference)[0], _orbit(given.gmo, times + difference)[0]
+        _orbit(parameters.lmo, times + difference)[0], _orbit(parameters.gmo, times + difference)[0]
     )
     # dR/dt R' = [~w] in inertial components; its frame components as the document reads them off.
     change = np.swapaxes(gmo_then - gmo_now, 1, 2) / difference @ gmo_now
@@ -152,7 +154,9 @@ def _references(given: Parameters, command: int, times: np.ndarray, difference: 
     rate = np.where(
         choice[0],
         0.0,
-        np.where(choice[1], given.lmo.rate * normal, np.einsum("nij,nj->ni", gmo_now, in_frame)),
+        np.where(
+            choice[1], parameters.lmo.rate * normal, np.einsum("nij,nj->ni", gmo_now, in_frame)
+        ),
     )
     return Rotation.from_matrix(frame).as_quat(), rate
 

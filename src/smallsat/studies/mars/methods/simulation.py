@@ -7,11 +7,11 @@ program does; the classical Runge-Kutta method integrates the step.
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.dynamics.attitude.mrp import dcm_to_mrp, mrp_to_dcm
 from smallsat.dynamics.attitude.rigid_body import runge_kutta_step
 from smallsat.dynamics.compiled import compiled
 from smallsat.dynamics.vectors import axpy, scaled, times, times_transposed
+from smallsat.studies.mars.configuration import Configuration
 from smallsat.studies.mars.model.frames import (
     SUN_FRAME,
     SUN_FRAME_RATE,
@@ -153,7 +153,7 @@ def integrate(
 
 
 def run(
-    given: Parameters,
+    parameters: Parameters,
     command: int,
     duration: float,
     step: float,
@@ -164,12 +164,12 @@ def run(
 ) -> np.ndarray:
     """Integrate one run; see `integrate` for the meaning and the columns."""
     return integrate(
-        given.initial_state,
-        given.inertia,
-        gains or given.gains,
-        given.lmo,
-        given.gmo,
-        given.visibility,
+        parameters.initial_state,
+        parameters.inertia,
+        gains or parameters.gains,
+        parameters.lmo,
+        parameters.gmo,
+        parameters.visibility,
         command,
         np.asarray(open_loop_torque, dtype=float),
         round(duration / step),
@@ -179,33 +179,33 @@ def run(
     )
 
 
-def document_runs(section: Config, given: Parameters) -> dict[str, np.ndarray]:
+def document_runs(section: Configuration, parameters: Parameters) -> dict[str, np.ndarray]:
     """The document's six runs as in its own settings, by name."""
-    durations, switch = section["durations_s"], section["mrp_switch"]
-    step, difference = section["step_s"], section["frame_difference_s"]["control"]
+    durations, switch = section.durations_s, section.mrp_switch
+    step, difference = section.step_s, section.frame_difference_s.control
 
     def one(command: int, duration: str, threshold: str, torque: np.ndarray = NO_TORQUE):
-        return run(given, command, durations[duration], step, difference, switch[threshold], torque)
+        return run(
+            parameters, command, durations[duration], step, difference, switch[threshold], torque
+        )
 
     return {
         "no torque": one(OPEN_LOOP, "response", "torque"),
-        "fixed torque": one(
-            OPEN_LOOP, "response", "torque", np.array(section["fixed_torque_N_m"], dtype=float)
-        ),
+        "fixed torque": one(OPEN_LOOP, "response", "torque", np.array(section.fixed_torque_N_m)),
         **{name: one(mode, "response", name) for name, mode in POINTING_RUNS.items()},
         "mission": one(AUTOMATIC, "mission", "mission"),
     }
 
 
-def day_run(section: Config, given: Parameters) -> np.ndarray:
+def day_run(section: Configuration, parameters: Parameters) -> np.ndarray:
     """The mission over a Mars day."""
     return run(
-        given,
+        parameters,
         AUTOMATIC,
-        section["durations_s"]["day"],
-        section["step_s"],
-        section["frame_difference_s"]["control"],
-        section["mrp_switch"]["mission"],
+        section.durations_s.day,
+        section.step_s,
+        section.frame_difference_s.control,
+        section.mrp_switch.mission,
     )
 
 

@@ -6,19 +6,20 @@ import pandas as pd
 from smallsat.evidence.not_converged import NotConverged, not_converged_table
 from smallsat.evidence.observation import observations_table
 from smallsat.step import Step, Tables
+from smallsat.studies.mars.configuration import Configuration
 from smallsat.studies.mars.evidence.observations import observations
 from smallsat.studies.mars.methods.simulation import as_table, day_run, document_runs, finite
 from smallsat.studies.mars.model.modes import shares, timeline
-from smallsat.studies.mars.parameters import parameters
+from smallsat.studies.mars.parameters import Parameters
 
 
-def run(step: Step) -> Tables:
+def run(step: Step[Configuration]) -> Tables:
     """Simulate every pointing mode, the mission and the day."""
-    section, given = step.section, parameters(step.section)
-    runs = document_runs(section, given)
-    day_record = day_run(section, given)
+    section, parameters = step.section, Parameters.from_section(step.section)
+    runs = document_runs(section, parameters)
+    day_record = day_run(section, parameters)
     unsolved = [
-        _overflow(name, record, section["step_s"])
+        _overflow(name, record, section.step_s)
         for name, record in [*runs.items(), ("day", day_record)]
         if not finite(record)
     ]
@@ -31,7 +32,7 @@ def run(step: Step) -> Tables:
         "modes.csv": intervals,
         "mode-shares.csv": shares(intervals),
         # From the records with all their digits, for results that are printed as exact fractions.
-        "observations.csv": observations_table(observations(section, given, runs)),
+        "observations.csv": observations_table(observations(section, parameters, runs)),
         "not-converged.csv": not_converged_table(unsolved),
     }
 

@@ -5,10 +5,10 @@ from dataclasses import replace
 import casadi as ca
 import numpy as np
 
-from smallsat.config import Config
 from smallsat.evidence.errata import Proof
 from smallsat.evidence.grounds import Grounds
 from smallsat.evidence.not_converged import NotConverged
+from smallsat.studies.transfer.configuration import Configuration
 from smallsat.studies.transfer.evidence.observations import degree_spread
 from smallsat.studies.transfer.evidence.printed_cases import contradictions, printed_cases
 from smallsat.studies.transfer.methods.extremals import find_extremals
@@ -17,28 +17,27 @@ from smallsat.studies.transfer.model.units import canonical, units_of
 from smallsat.studies.transfer.results import PrintedCase, read_cases, select
 
 
-def _solve(config: Config, **changes: float) -> tuple[float, float]:
-    study = config["transfer"]
-    problem = replace(TransferProblem.from_config(study), **changes)
-    units, steps = units_of(problem), study["numerics"]["steps"]["indirect"]
-    found = find_extremals(canonical(problem), units, (1,), study["guess"], steps)[1]
+def _solve(section: Configuration, **changes: float) -> tuple[float, float]:
+    problem = replace(TransferProblem.of(section.problem), **changes)
+    units, steps = units_of(problem), section.numerics.steps.indirect
+    found = find_extremals(canonical(problem), units, (1,), section.guess, steps)[1]
     if isinstance(found, NotConverged):
         raise LookupError(found.status)
     final_time = found.extremal.final_time * units.time
     return final_time, problem.final_mass(final_time)
 
 
-def _mass_after(grounds: Grounds, final_time: float) -> float:
+def _mass_after(grounds: Grounds[Configuration], final_time: float) -> float:
     """Final mass that a final time implies (equation 27)."""
-    return TransferProblem.from_config(grounds.config["transfer"]).final_mass(final_time)
+    return TransferProblem.of(grounds.section.problem).final_mass(final_time)
 
 
-def exhaust_speed(grounds: Grounds) -> Proof:
+def exhaust_speed(grounds: Grounds[Configuration]) -> Proof:
     """Solve the problem with the exhaust speed of the prose and with that of the listings."""
     ledger = grounds.ledger
     prose = ledger.value("section-2-3/v-e-exhaust-speed").value
     listing = ledger.value("listing-1/param-ve").value
-    wrong, right = (_solve(grounds.config, exhaust_speed=speed) for speed in (prose, listing))
+    wrong, right = (_solve(grounds.section, exhaust_speed=speed) for speed in (prose, listing))
     time, mass = (
         ledger.value(f"table-1/terminal-{quantity}/indirect-shooting")
         for quantity in ("time", "mass")
@@ -53,15 +52,15 @@ def exhaust_speed(grounds: Grounds) -> Proof:
     )
 
 
-def final_radius(grounds: Grounds) -> Proof:
+def final_radius(grounds: Grounds[Configuration]) -> Proof:
     """A final radius of 1 is the initial orbit, which needs no transfer at all."""
     ledger = grounds.ledger
     prose = ledger.value("section-2-3/boundary-transversality-condition/r-f").value
     table = ledger.value("section-2-1-conditions-table/terminal-condition/r-t-f").value
-    problem = TransferProblem.from_config(grounds.config["transfer"])
+    problem = TransferProblem.of(grounds.section.problem)
     same_orbit = replace(problem, final_radius=prose)
     error = float(np.max(np.abs(same_orbit.terminal_error(same_orbit.initial_state))))
-    time, _ = _solve(grounds.config, final_radius=table)
+    time, _ = _solve(grounds.section, final_radius=table)
     printed = ledger.value("table-1/terminal-time/indirect-shooting")
     return Proof(
         error == 0.0 and printed.matches(time),
@@ -95,14 +94,14 @@ def _best_mass(grounds: Grounds) -> float:
     return grounds.ledger.value("table-1/terminal-mass/indirect-shooting").value
 
 
-def _mass_of_single(grounds: Grounds, degree: int) -> Proof:
+def _mass_of_single(grounds: Grounds[Configuration], degree: int) -> Proof:
     """The prose's mass of one polynomial is compared with the mass that Table 3's time implies."""
     row = f"direct-shooting-n-{degree}"
     time = grounds.ledger.value(f"table-3/terminal-time/{row}")
     table = grounds.ledger.value(f"table-3/terminal-mass/{row}").value
     prose = grounds.ledger.value(f"section-3-3/terminal-mass/{row}")
     # The printed time is rounded: the mass that it implies has this much room.
-    room = grounds.config["transfer"]["problem"]["thrust"] * time.half_unit
+    room = grounds.section.problem.thrust * time.half_unit
     implied = _mass_after(grounds, time.value)
     return Proof(
         abs(prose.value - implied) > prose.half_unit + room,
@@ -261,12 +260,12 @@ def optimal_choice(grounds: Grounds) -> Proof:
     )
 
 
-def lagrange_gravity(grounds: Grounds) -> Proof:
+def lagrange_gravity(grounds: Grounds[Configuration]) -> Proof:
     """The gravity term of Lagrange's equation, by differentiating the printed Lagrangian."""
-    r, rate, mu = ca.SX.sym("r"), ca.SX.sym("rate"), grounds.config["transfer"]["problem"]["mu"]
+    r, rate, mu = ca.SX.sym("r"), ca.SX.sym("rate"), grounds.section.problem.mu
     lagrangian = 0.5 * rate**2 * r**2 + mu / r
     derivative = ca.Function("d", [r, rate], [ca.gradient(lagrangian, r)])
-    radius = grounds.config["transfer"]["problem"]["final_radius"]
+    radius = grounds.section.problem.final_radius
     force = float(derivative(radius, 0.0))
     return Proof(
         np.isclose(force, -mu / radius**2) and not np.isclose(force, -mu / radius),
@@ -276,9 +275,9 @@ def lagrange_gravity(grounds: Grounds) -> Proof:
     )
 
 
-def generalised_force(grounds: Grounds) -> Proof:
+def generalised_force(grounds: Grounds[Configuration]) -> Proof:
     """The generalised force of theta needs the derivative of the position by theta."""
-    angle, radius, beta = 0.7, grounds.config["transfer"]["problem"]["final_radius"], 0.4
+    angle, radius, beta = 0.7, grounds.section.problem.final_radius, 0.4
     u_r = np.array([np.cos(angle), np.sin(angle)])
     u_theta = np.array([-np.sin(angle), np.cos(angle)])
     force = np.cos(beta) * u_theta + np.sin(beta) * u_r
@@ -296,10 +295,10 @@ def generalised_force(grounds: Grounds) -> Proof:
     )
 
 
-def hamiltonian_exhaust(grounds: Grounds) -> Proof:
+def hamiltonian_exhaust(grounds: Grounds[Configuration]) -> Proof:
     """The Hamiltonian vanishes along the extremal with v_e in the mass term, not with v_theta."""
     flown = grounds.rows("indirect.parquet", intervals=1)
-    problem = TransferProblem.from_config(grounds.config["transfer"])
+    problem = TransferProblem.of(grounds.section.problem)
     correct = flown["hamiltonian"].abs().max()
     mass_term = flown["lambda_m"] * problem.thrust
     wrong = (

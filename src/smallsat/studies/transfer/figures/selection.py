@@ -3,12 +3,14 @@
 from collections.abc import Mapping
 from typing import Any
 
-from smallsat.config import Config
+from smallsat.studies.transfer.configuration import Configuration
 
 
-def is_drawn(section: Config, notebook: str, what: Any, parameters: Mapping[str, Any]) -> bool:
+def is_drawn(
+    section: Configuration, notebook: str, what: Any, parameters: Mapping[str, Any]
+) -> bool:
     """Whether the configuration has what a figure shows."""
     if notebook != "case":
         return True
     degree, intervals = parameters["degree"], parameters["intervals"]
-    return degree in (0, *section["degrees"]) and intervals in (1, *section["intervals"])
+    return degree in (0, *section.degrees) and intervals in (1, *section.intervals)

@@ -2,7 +2,7 @@
 
 import time
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -21,6 +21,7 @@ from smallsat.optimal_control.collocation import (
     collocation_program,
 )
 from smallsat.optimal_control.nonlinear_program import IpoptSolver, Solution
+from smallsat.studies.transfer.configuration import Configuration
 from smallsat.studies.transfer.methods.bounds import relative_length, time_bounds
 from smallsat.studies.transfer.methods.experiments import NO_EXTREMAL, extremal_table
 from smallsat.studies.transfer.methods.extremals import SAME_TIME
@@ -60,7 +61,7 @@ COLLOCATION_COSTATE = (-1.0, 0.0, -0.5, 1.0, 0.5)
 ROUGH_POINTS, FINE_POINTS = 41, 481
 
 
-def collocation(config: Mapping[str, Any]) -> tuple[pd.DataFrame, list[NotConverged]]:
+def collocation(section: Configuration) -> tuple[pd.DataFrame, list[NotConverged]]:
     """Direct collocation on several meshes, and indirect collocation.
 
     Each starts from a rough guess, and where that does not converge, or ends at a slower extremal,
@@ -73,9 +74,9 @@ def collocation(config: Mapping[str, Any]) -> tuple[pd.DataFrame, list[NotConver
     not_converged
         Rows of it that nothing solved.
     """
-    given = TransferProblem.from_config(config)
-    problem, unit = canonical(given), units_of(given).time
-    extremal = extremal_table(dict(config))
+    configured = TransferProblem.of(section.problem)
+    problem, unit = canonical(configured), units_of(configured).time
+    extremal = extremal_table(section)
     rows, missing = [], []
     if isinstance(extremal, NotConverged):
         name = "direct and indirect collocation"

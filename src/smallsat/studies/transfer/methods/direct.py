@@ -9,6 +9,7 @@ import pandas as pd
 
 from smallsat.optimal_control.nonlinear_program import NonlinearProgram
 from smallsat.optimal_control.runge_kutta import integrate, step_function
+from smallsat.studies.transfer.configuration import Guess
 from smallsat.studies.transfer.model.problem import STATES, TransferProblem
 from smallsat.studies.transfer.model.trajectory import ControlHistory
 
@@ -116,13 +117,13 @@ def interval_ends(case: Case, k: int) -> tuple[float, float]:
     return start + k * width, start + (k + 1) * width
 
 
-def published_guess(case: Case, guess: dict[str, Any]) -> np.ndarray:
+def published_guess(case: Case, guess: Guess) -> np.ndarray:
     """The document's guess (size,): flat, and a long flight (Listings 6, 10)."""
     return np.concatenate(
         [
-            np.full(5 * (case.intervals - 1), guess["interior_state"]),
-            np.full((case.degree + 1) * case.intervals, guess["coefficient"]),
-            [guess["direct_final_time"]],
+            np.full(5 * (case.intervals - 1), guess.interior_state),
+            np.full((case.degree + 1) * case.intervals, guess.coefficient),
+            [guess.direct_final_time],
         ]
     )
 

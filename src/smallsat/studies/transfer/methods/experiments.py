@@ -17,6 +17,7 @@ import pandas as pd
 
 from smallsat.evidence.not_converged import NotConverged
 from smallsat.optimal_control.nonlinear_program import IpoptSolver, SlsqpSolver, Solution
+from smallsat.studies.transfer.configuration import Configuration
 from smallsat.studies.transfer.methods.bounds import (
     Bounds,
     near_bounds,
@@ -47,7 +48,6 @@ from smallsat.studies.transfer.model.trajectory import (
 )
 from smallsat.studies.transfer.model.units import Units, canonical, units_of
 
-Config = dict[str, Any]
 Row = dict[str, Any]
 # What was tried, its solution, and columns of its row beside the usual ones.
 Try = tuple[str, Solution, Row]
@@ -94,15 +94,15 @@ class Solved:
         }
 
 
-def indirect(config: Config) -> Solved:
+def indirect(section: Configuration) -> Solved:
     """Indirect shooting and indirect multiple shooting (Tables 1 and 2)."""
-    problem, units = _canonical(config)
+    problem, units = _canonical(section)
     found = find_extremals(
         problem,
         units,
-        (1, *config["intervals"]),
-        config["guess"],
-        config["numerics"]["steps"]["indirect"],
+        (1, *section.intervals),
+        section.guess,
+        section.numerics.steps.indirect,
     )
     rows, frames, missing = [], [], []
     for intervals, result in found.items():
@@ -142,32 +142,32 @@ def indirect(config: Config) -> Solved:
     return Solved(pd.DataFrame(rows), _joined(frames, empty), missing)
 
 
-def as_published(config: Config, intervals: int) -> Solved:
+def as_published(section: Configuration, intervals: int) -> Solved:
     """Direct shooting from the document's guess, in its basis and bounds, by an SQP method.
 
     Each case is also stopped early, at the looser tolerances of the configuration; only the run at
     ``as_published_tolerance`` keeps its trajectory. A run that fails is the document's method's
     own result, not a case that we could not solve.
     """
-    problem = TransferProblem.from_config(config)
+    problem = TransferProblem.of(section.problem)
     units = units_of(problem)
-    numerics, bounds = config["numerics"], config["bounds"]
-    strict = numerics["as_published_tolerance"]
+    numerics, bounds = section.numerics, section.bounds
+    strict = numerics.as_published_tolerance
     multiple = intervals > 1
     rows, frames = [], []
-    for degree in config["degrees"]:
+    for degree in section.degrees:
         case = Case(degree, intervals, "global")
         program = shooting_program(
             problem,
             case,
-            numerics["steps"]["as_published"],
-            coefficient_bounds=tuple(bounds["coefficient"]),
-            state_bounds=tuple(bounds["interior_state"]),
-            time_bounds=tuple(bounds["final_time_multiple" if multiple else "final_time_single"]),
+            numerics.steps.as_published,
+            coefficient_bounds=bounds.coefficient,
+            state_bounds=bounds.interior_state,
+            time_bounds=bounds.final_time_multiple if multiple else bounds.final_time_single,
         )
         solver = SlsqpSolver(program)
-        guess = published_guess(case, config["guess"])
-        for tolerance in (strict, *numerics["early_stopping_tolerances"]):
+        guess = published_guess(case, section.guess)
+        for tolerance in (strict, *numerics.early_stopping_tolerances):
             solution = solver.solve(guess, tolerance)
             row = _direct_row("as published", case, solution) | {"tolerance": tolerance}
             if tolerance == strict:
@@ -181,17 +181,17 @@ def as_published(config: Config, intervals: int) -> Solved:
     return Solved(pd.DataFrame(rows), _joined(frames, [*LABEL, *COLUMNS]), [])
 
 
-def converged(config: Config) -> Solved:
+def converged(section: Configuration) -> Solved:
     """Direct multiple shooting in a local basis, started from the indirect solution, by IPOPT."""
-    return _near_extremal(config, "converged", continuous=False)
+    return _near_extremal(section, "converged", continuous=False)
 
 
-def continuous(config: Config) -> Solved:
+def continuous(section: Configuration) -> Solved:
     """The same with a control that is continuous at the interval ends (the future work)."""
-    return _near_extremal(config, "continuous", continuous=True)
+    return _near_extremal(section, "continuous", continuous=True)
 
 
-def multistart(config: Config) -> tuple[Solved, pd.DataFrame]:
+def multistart(section: Configuration) -> tuple[Solved, pd.DataFrame]:
     """Best single polynomial of each degree over many random starts.
 
     Returns
@@ -201,31 +201,31 @@ def multistart(config: Config) -> tuple[Solved, pd.DataFrame]:
     starts
         One row a start: degree, start, final_time, converged.
     """
-    problem, units = _canonical(config)
-    numerics = config["numerics"]
-    extremal = extremal_table(config)
-    seeds = np.random.SeedSequence(numerics["seed"]).spawn(len(config["degrees"]))
+    problem, units = _canonical(section)
+    numerics = section.numerics
+    extremal = extremal_table(section)
+    seeds = np.random.SeedSequence(numerics.seed).spawn(len(section.degrees))
     starts: list[Row] = []
     attempts = []
-    for degree, seed in zip(config["degrees"], seeds, strict=True):
+    for degree, seed in zip(section.degrees, seeds, strict=True):
         case = Case(degree, 1, "local")
         if isinstance(extremal, NotConverged):
             attempts.append(_not_started(case, "converged", extremal))
             continue
         final_time = float(extremal["t"].iloc[-1])
         bounds: dict[str, Any] = {
-            "coefficient_bounds": tuple(config["bounds"]["coefficient"]),
+            "coefficient_bounds": section.bounds.coefficient,
             "time_bounds": (0.0, 0.9 * problem.longest_time),
         }
         steps = {
-            name: enough_steps(numerics["steps"][name], problem, final_time)
+            name: enough_steps(numerics.steps[name], problem, final_time)
             for name in ("as_published", "converged")
         }
         coarse = SlsqpSolver(
             shooting_program(problem, case, steps["as_published"], **bounds), expand=True
         )
         found: list[Solution] = []
-        asked = numerics["multistart"]
+        asked = numerics.multistart
         for start in range(asked + FURTHER_STARTS):
             if start >= asked and found:
                 break
@@ -255,11 +255,11 @@ def multistart(config: Config) -> tuple[Solved, pd.DataFrame]:
     return _collect(units, attempts), pd.DataFrame(starts, columns=columns)
 
 
-def extremal_table(config: Config) -> pd.DataFrame | NotConverged:
+def extremal_table(section: Configuration) -> pd.DataFrame | NotConverged:
     """The extremal of single shooting as a table of `propagate_extremal`, in canonical units."""
-    problem, units = _canonical(config)
-    steps = config["numerics"]["steps"]["indirect"]
-    result = find_extremals(problem, units, (1,), config["guess"], steps)[1]
+    problem, units = _canonical(section)
+    steps = section.numerics.steps.indirect
+    result = find_extremals(problem, units, (1,), section.guess, steps)[1]
     if isinstance(result, NotConverged):
         return result
     return propagate_extremal(problem, result.extremal, SAMPLES + 1)[1]
@@ -272,11 +272,11 @@ class _Attempted:
     not_converged: NotConverged | None = None
 
 
-def _near_extremal(config: Config, run: str, *, continuous: bool) -> Solved:
-    problem, units = _canonical(config)
-    extremal = extremal_table(config)
-    cases = [Case(n, k, "local") for n in config["degrees"] for k in config["intervals"]]
-    steps = config["numerics"]["steps"]["converged"]
+def _near_extremal(section: Configuration, run: str, *, continuous: bool) -> Solved:
+    problem, units = _canonical(section)
+    extremal = extremal_table(section)
+    cases = [Case(n, k, "local") for n in section.degrees for k in section.intervals]
+    steps = section.numerics.steps.converged
     return _collect(
         units,
         [
@@ -365,9 +365,9 @@ def _collect(units: Units, attempts: Iterable[_Attempted]) -> Solved:
     return Solved(pd.DataFrame(rows), _joined(frames, [*LABEL, *COLUMNS]), missing)
 
 
-def _canonical(config: Config) -> tuple[TransferProblem, Units]:
-    given = TransferProblem.from_config(config)
-    return canonical(given), units_of(given)
+def _canonical(section: Configuration) -> tuple[TransferProblem, Units]:
+    problem = TransferProblem.of(section.problem)
+    return canonical(problem), units_of(problem)
 
 
 def _in_units(table: pd.DataFrame, units: Units) -> pd.DataFrame:

@@ -1,13 +1,13 @@
 """The extremal of each number of intervals: from the document's guess, else by continuation."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
 from smallsat.evidence.not_converged import NotConverged
+from smallsat.studies.transfer.configuration import Guess
 from smallsat.studies.transfer.methods.continuation import (
     ContinuationError,
     MinimumTime,
@@ -66,7 +66,7 @@ def find_extremals(
     problem: TransferProblem,
     units: Units,
     intervals: Iterable[int],
-    guess: Mapping[str, Any],
+    guess: Guess,
     steps: int,
 ) -> dict[int, Found | NotConverged]:
     """Extremals of a problem by (multiple) shooting, one a number of intervals.
@@ -81,7 +81,7 @@ def find_extremals(
     intervals
         Numbers of intervals; 1 for single shooting.
     guess
-        The configuration's ``guess``.
+        Of the configuration.
     steps
         Steps over the flight that the configuration asks for.
     """
@@ -99,7 +99,7 @@ def _find(
     problem: TransferProblem,
     units: Units,
     intervals: int,
-    guess: Mapping[str, Any],
+    guess: Guess,
     steps: int,
     reference: MinimumTime | None,
     ended: str,

@@ -1,7 +1,7 @@
 """Indirect shooting: the two-point boundary value problem of the costate, single and multiple."""
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,6 +12,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import least_squares
 
 from smallsat.optimal_control.runge_kutta import step_function
+from smallsat.studies.transfer.configuration import Guess
 from smallsat.studies.transfer.model.problem import COSTATES, STATES, TransferProblem
 from smallsat.studies.transfer.model.trajectory import error_magnitude
 from smallsat.studies.transfer.model.units import Units
@@ -63,7 +64,7 @@ class ConvergenceError(Exception):
         self.residual = residual
 
 
-def published_start(intervals: int, guess: Mapping[str, Any], units: Units) -> np.ndarray:
+def published_start(intervals: int, guess: Guess, units: Units) -> np.ndarray:
     """The document's guess of the unknowns (10 K - 4,) in canonical units (Listings 1, 4).
 
     Parameters
@@ -71,13 +72,13 @@ def published_start(intervals: int, guess: Mapping[str, Any], units: Units) -> n
     intervals
         K; 1 for single shooting.
     guess
-        ``initial_costate``, ``interior_state`` and ``indirect_final_time`` of the configuration.
+        Of the configuration.
     units
         Canonical units of the configuration's problem.
     """
-    costate = np.array([guess["initial_costate"][name] for name in COSTATES]) / units.costate
-    interior = np.concatenate([guess["interior_state"] / units.state, costate])
-    time_guess = guess["indirect_final_time"] / units.time
+    costate = np.array([guess.initial_costate[name] for name in COSTATES]) / units.costate
+    interior = np.concatenate([guess.interior_state / units.state, costate])
+    time_guess = guess.indirect_final_time / units.time
     return np.concatenate([costate, *[interior] * (intervals - 1), [time_guess]])
 
 

@@ -6,11 +6,12 @@ time. Polar coordinates, canonical units (document `transfer`, sections 1 and 2)
 horizontal. Expressions are written for any array library: numbers, NumPy arrays and CasADi symbols.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+
+from smallsat.studies.transfer.configuration import Problem
 
 STATES = ("r", "theta", "v_r", "v_theta", "m")
 COSTATES = ("lambda_r", "lambda_theta", "lambda_vr", "lambda_vtheta", "lambda_m")
@@ -42,9 +43,9 @@ class TransferProblem:
     initial_mass: float
 
     @classmethod
-    def from_config(cls, config: Mapping[str, Any]) -> "TransferProblem":
-        """Problem from the section ``transfer`` of the configuration."""
-        return cls(**config["problem"])
+    def of(cls, problem: Problem) -> "TransferProblem":
+        """The configured problem."""
+        return cls(**dict(problem))
 
     @property
     def initial_state(self) -> np.ndarray:

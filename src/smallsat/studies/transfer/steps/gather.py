@@ -5,12 +5,13 @@ import pandas as pd
 from smallsat.evidence.ledger import Ledger
 from smallsat.results import read_table
 from smallsat.step import Step, Tables
+from smallsat.studies.transfer.configuration import Configuration
 from smallsat.studies.transfer.evidence.early_stopping import early_stopping_table
 
 
-def run(step: Step) -> Tables:
+def run(step: Step[Configuration]) -> Tables:
     """Join the numbers of intervals; compare early-stopped runs with Table 4."""
-    shards = [f"as-published-k{intervals}" for intervals in (1, *step.section["intervals"])]
+    shards = [f"as-published-k{intervals}" for intervals in (1, *step.section.intervals)]
     tables = {
         f"as-published{suffix}": pd.concat(
             [read_table(step.results / f"{shard}{suffix}") for shard in shards], ignore_index=True

@@ -7,13 +7,14 @@ from smallsat.evidence.not_converged import joined
 from smallsat.evidence.observation import observations_table
 from smallsat.results import read_table
 from smallsat.step import Step, Tables
+from smallsat.studies.transfer.configuration import Configuration
 from smallsat.studies.transfer.evidence.observations import observe, seconds
 
 # Experiments whose cases we must solve; what the document's own method leaves unsolved is a result.
 OURS = ("indirect", "converged", "continuous", "multistart", "collocation")
 
 
-def run(step: Step) -> Tables:
+def run(step: Step[Configuration]) -> Tables:
     """Observe, list what did not converge, and find our seconds for the printed ones."""
     rows = Ledger.read(step.published / "values.csv").rows
     measured = [
