@@ -10,7 +10,7 @@ import re
 import sys
 from pathlib import Path
 
-from smallsat.catalogue import read_catalogue, untyped
+from smallsat.catalogue import read_catalogue
 from smallsat.config import as_json
 from smallsat.errors import InputError
 from smallsat.evidence.ledger import read_published

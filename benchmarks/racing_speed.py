@@ -8,52 +8,56 @@ from pathlib import Path
 
 import numpy as np
 
-from smallsat.config import read_yaml
+from smallsat.config import default_config
 from smallsat.studies.racing.methods.course_program import CourseProgram
 from smallsat.studies.racing.methods.races import solve_as_published, solve_optima, whole_leg
 from smallsat.studies.racing.model.course import generate
 from smallsat.studies.racing.model.cubesat import CubeSat
-from smallsat.studies.racing.parameters import parameters
+from smallsat.studies.racing.parameters import Parameters
 
-CONFIG = Path(__file__).parents[1] / "config/default/racing.yaml"
+ROOT = Path(__file__).parents[1]
 COURSES = 20
 
 
 def measure() -> dict[str, float]:
     """Seconds of building and solving, each in one process on one core."""
-    section = read_yaml(CONFIG)["racing"]
-    given = parameters(section)
-    race = given.races["scenario-1"]
+    section = default_config(ROOT).racing
+    parameters = Parameters.from_section(section)
+    race = parameters.races["scenario-1"]
     found: dict[str, float] = {}
 
-    program = CourseProgram(race.course.rings, "state", section["optimum"]["intervals"])
+    program = CourseProgram(race.course.rings, "state", section.optimum.intervals)
     began = time.perf_counter()
-    program.solve(whole_leg(race.course, race.cubesats[0]), race.cubesats[0], given.mean_motion)
+    program.solve(
+        whole_leg(race.course, race.cubesats[0]), race.cubesats[0], parameters.mean_motion
+    )
     found["build_and_first_solve_s"] = time.perf_counter() - began
     for craft in race.cubesats:
         began = time.perf_counter()
-        plan = program.solve(whole_leg(race.course, craft), craft, given.mean_motion)
+        plan = program.solve(whole_leg(race.course, craft), craft, parameters.mean_motion)
         found[f"whole_course_{craft.name}_s"] = time.perf_counter() - began
         found[f"whole_course_{craft.name}_converged"] = float(plan.converged)
 
     # Compiled before the clock starts.
-    solve_as_published(given, 1e-12, "scenario-1", given.as_published, ("Miny",))
-    for scenario in given.races:
+    solve_as_published(parameters, 1e-12, "scenario-1", parameters.as_published, ("Miny",))
+    for scenario in parameters.races:
         began = time.perf_counter()
-        solve_as_published(given, 1e-12, scenario, given.as_published)
+        solve_as_published(parameters, 1e-12, scenario, parameters.as_published)
         found[f"as_published_{scenario}_s"] = time.perf_counter() - began
         began = time.perf_counter()
-        solve_optima(given, section, scenario)
+        solve_optima(parameters, section, scenario)
         found[f"all_other_solutions_{scenario}_s"] = time.perf_counter() - began
 
-    rings = given.races["scenario-2"].course.rings
-    program = CourseProgram(rings, "state", section["optimum"]["intervals"])
+    rings = parameters.races["scenario-2"].course.rings
+    program = CourseProgram(rings, "state", section.optimum.intervals)
     began, converged = time.perf_counter(), 0
     for seed in range(COURSES):
         draws = np.random.default_rng(seed)
-        course = generate(draws, given.ranges, rings)
-        craft = CubeSat("any", section["random_courses"]["thrust_m_s2"], (), course.start)
-        converged += program.solve(whole_leg(course, craft), craft, given.mean_motion).converged
+        course = generate(draws, parameters.ranges, rings)
+        craft = CubeSat("any", section.random_courses.thrust_m_s2, (), course.start)
+        converged += program.solve(
+            whole_leg(course, craft), craft, parameters.mean_motion
+        ).converged
     found["random_course_s"] = (time.perf_counter() - began) / COURSES
     found["random_courses_converged_share"] = converged / COURSES
     return found

@@ -6,31 +6,32 @@ the 90 deg turn at N = 20 with the same smoothing stages, from the same kind of 
 
 import importlib.util
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
-from smallsat.config import read_yaml
+from smallsat.config import default_config
 from smallsat.optimal_control.gauss_pseudospectral import Mesh
 from smallsat.studies.slew.methods.guidance_problem import Guidance, Result, problem, turning_guess
 from smallsat.studies.slew.methods.plans import guidance_model
-from smallsat.studies.slew.parameters import Parameters, parameters
+from smallsat.studies.slew.parameters import Parameters
 
-CONFIG = Path(__file__).parents[1] / "config/default/slew.yaml"
+ROOT = Path(__file__).parents[1]
 REPETITIONS = 3
 HALF_TURN_S = 110.0
 
 
 def measure() -> dict[str, float]:
     """Seconds of solving and costs; those of yapss too, where it is installed."""
-    section = read_yaml(CONFIG)["slew"]
-    given = parameters(section)
-    smoothing = section["numerics"]["smoothing"]
-    nodes = section["manoeuvre"]["quarter"]["nodes"]
-    half = section["manoeuvre"]["half"]
-    quarter = _solved(given, "quarter", given.duration, Mesh(1, nodes), smoothing)
+    section = default_config(ROOT).slew
+    parameters = Parameters.from_section(section)
+    smoothing = section.numerics.smoothing
+    nodes = section.manoeuvre.quarter.nodes
+    half = section.manoeuvre.half
+    quarter = _solved(parameters, "quarter", parameters.duration, Mesh(1, nodes), smoothing)
     turn = _solved(
-        given, "half", HALF_TURN_S, Mesh(half["segments"], half["segment_nodes"]), smoothing
+        parameters, "half", HALF_TURN_S, Mesh(half.segments, half.segment_nodes), smoothing
     )
     found = {
         "quarter_turn_s": quarter.seconds,
@@ -43,9 +44,11 @@ def measure() -> dict[str, float]:
     if importlib.util.find_spec("yapss") is None:
         print("  yapss is not installed: no baseline; `make benchmark-baseline` installs it")
         return found
-    seconds, cost, stages = _yapss(given, nodes, smoothing)
+    seconds, cost, stages = _yapss(parameters, nodes, smoothing)
     # Compared over the stages that yapss converges in; ours goes on to less smoothing.
-    same = _solved(given, "quarter", given.duration, Mesh(1, nodes), smoothing[: max(stages, 1)])
+    same = _solved(
+        parameters, "quarter", parameters.duration, Mesh(1, nodes), smoothing[: max(stages, 1)]
+    )
     return found | {
         "yapss_quarter_turn_s": seconds,
         "yapss_quarter_turn_cost_mN_m_s": 1e3 * cost,
@@ -57,16 +60,20 @@ def measure() -> dict[str, float]:
 
 
 def _solved(
-    given: Parameters, case: str, duration: float, mesh: Mesh, smoothing: list[float]
+    parameters: Parameters, case: str, duration: float, mesh: Mesh, smoothing: Sequence[float]
 ) -> Result:
-    model, target = guidance_model(given), given.targets[case]
-    guidance = Guidance(model, problem(model, given.initial, target, (duration, duration)), mesh)
-    guess = turning_guess(model, given.initial, target, duration, (0.2, 0.0))
+    model, target = guidance_model(parameters), parameters.targets[case]
+    guidance = Guidance(
+        model, problem(model, parameters.initial, target, (duration, duration)), mesh
+    )
+    guess = turning_guess(model, parameters.initial, target, duration, (0.2, 0.0))
     results = [guidance.solve(guess, smoothing) for _ in range(REPETITIONS)]
     return min(results, key=lambda result: result.seconds)
 
 
-def _yapss(given: Parameters, nodes: int, smoothing: list[float]) -> tuple[float, float, int]:
+def _yapss(
+    parameters: Parameters, nodes: int, smoothing: Sequence[float]
+) -> tuple[float, float, int]:
     """The quarter turn without the gravity gradient, scaled alike.
 
     Seconds and cost over the stages that converged, and their number.
@@ -74,7 +81,10 @@ def _yapss(given: Parameters, nodes: int, smoothing: list[float]) -> tuple[float
     from yapss import Problem
     from yapss.math import sqrt
 
-    unit, scale = given.duration, np.diag(given.inertia) / (given.torque * given.duration**2)
+    unit, scale = (
+        parameters.duration,
+        np.diag(parameters.inertia) / (parameters.torque * parameters.duration**2),
+    )
     ocp = Problem(name="slew", nx=[7], nu=[3], nq=[1])
     stage = [smoothing[0]]
 
@@ -98,17 +108,19 @@ def _yapss(given: Parameters, nodes: int, smoothing: list[float]) -> tuple[float
         arg.phase[0].integrand[0] = sqrt(u[0] ** 2 + u[1] ** 2 + u[2] ** 2 + s**2) - s
 
     ocp.functions.objective, ocp.functions.continuous = objective, continuous
-    bounds, target = ocp.bounds.phase[0], given.targets["quarter"]
+    bounds, target = ocp.bounds.phase[0], parameters.targets["quarter"]
     bounds.initial_time.lower = bounds.initial_time.upper = 0.0
     bounds.final_time.lower = bounds.final_time.upper = 1.0
-    bounds.initial_state.lower[:] = bounds.initial_state.upper[:] = np.r_[given.initial, 0, 0, 0]
+    bounds.initial_state.lower[:] = bounds.initial_state.upper[:] = np.r_[
+        parameters.initial, 0, 0, 0
+    ]
     # The scalar part follows from the other three.
     bounds.final_state.lower[:3] = bounds.final_state.upper[:3] = target[:3]
     bounds.final_state.lower[4:] = bounds.final_state.upper[4:] = 0.0
     bounds.control.lower[:], bounds.control.upper[:] = -1.0, 1.0
     guess = ocp.guess.phase[0]
-    model = guidance_model(given)
-    _, state, control = turning_guess(model, given.initial, target, unit, (0.2, 0.0))
+    model = guidance_model(parameters)
+    _, state, control = turning_guess(model, parameters.initial, target, unit, (0.2, 0.0))
     guess.time = np.linspace(0.0, 1.0, 4 * nodes)
     guess.state = np.column_stack([state(t)[:7] for t in guess.time])
     guess.control = np.column_stack([control(t) for t in guess.time])
@@ -132,7 +144,7 @@ def _yapss(given: Parameters, nodes: int, smoothing: list[float]) -> tuple[float
         stages += 1
         phase = solution.phase[0]
         size = np.linalg.norm(phase.control, axis=0)
-        cost = float(size @ weights / 2.0) * given.torque * unit
+        cost = float(size @ weights / 2.0) * parameters.torque * unit
         guess.time, guess.state = phase.time, phase.state
         guess.control = np.array(
             [np.interp(phase.time, phase.time_c, row) for row in phase.control]

@@ -1,11 +1,10 @@
 # Racing: CubeSats through rings, as published and as it should have been run.
-from smallsat.studies.racing.parameters import course_files
+from smallsat.studies.racing.parameters import SCENARIOS, course_files
 
-SCENARIOS = ["scenario-1", "scenario-2"]
 RACING_PARTS = ["races.csv", "rings.csv", "segments.csv", "trajectories.parquet"]
 RANDOM_SHARDS = Shard.all(2)
 # Courses of the user's own, read by every step with the parameters.
-COURSES = {"files": course_files({"racing": untyped(CONFIG["racing"])})}
+COURSES = {"files": course_files(CONFIG["racing"])}
 
 step(
     "racing",

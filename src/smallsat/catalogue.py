@@ -81,12 +81,6 @@ def section_type(study: str) -> type[Part]:
     return module.Configuration
 
 
-def untyped(section: Any) -> Any:
-    """Transition: the plain form of a section whose study does not take the typed one yet."""
-    study = type(section).__module__.split(".")[2]
-    return section if study not in ("slew", "racing") else section.model_dump(mode="json")
-
-
 def _study(path: Path) -> Study:
     entries: Any = read_yaml(path)
     known = [field.name for field in fields(Study) if field.name != "name"]

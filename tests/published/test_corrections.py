@@ -35,7 +35,7 @@ def test_a_wrong_correction_is_found(root, tested_run, config, grounds, document
     entries = read_yaml(root / f"data/published/{document}/errata.yaml")
     chosen = [entry for entry in entries if entry["key"] in NUMBERS[document]]
     assert len(chosen) == len(NUMBERS[document])
-    given = grounds(document, config, tested_run / "data/results" / document)
+    given = grounds(document, config[document], tested_run / "data/results" / document)
     assert prove_errata(chosen, given, "errata.yaml")["holds"].all()
     wrong = [entry | {"correct": with_another_digit(entry["correct"])} for entry in chosen]
     found = prove_errata(wrong, given, "errata.yaml")

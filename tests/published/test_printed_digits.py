@@ -12,11 +12,11 @@ import pytest
 
 import smallsat.evidence.verdicts as judging
 from smallsat.catalogue import read_catalogue
-from smallsat.config import read_yaml
 from smallsat.evidence.ledger import read_ledger
 from smallsat.evidence.printed import Printed
 from smallsat.evidence.summary import value_kinds
 from smallsat.results import read_table, write_table
+from smallsat.strict_yaml import read_yaml
 
 # Literals that are no decimal numbers, worked out by hand.
 EXACT = {
@@ -175,7 +175,7 @@ def test_a_broken_judge_is_found(root, tested_run, kinds, config, tmp_path, monk
         entries["bindings"],
         entries["errata"],
         read_table(results / "errata.csv"),
-        config,
+        config[study],
     )
     write_table(table, tmp_path / "verdicts.csv")
     assert judged_wrongly(text_table(tmp_path / "verdicts.csv"), kinds, entries["rules"])

@@ -21,8 +21,8 @@ LIMITS = np.full(3, 0.1667)
 PRIMERS = np.random.default_rng(7).normal(size=(50, 3)) * 2.0
 
 
-def _first(given):
-    race = given.races["scenario-1"]
+def _first(parameters):
+    race = parameters.races["scenario-1"]
     craft = race.cubesats[2]
     course = race.course
     target = Target(course.centres[0], course.normals[0], 5.0, course.start, False)
@@ -36,10 +36,10 @@ def test_least_time_is_that_of_constant_acceleration():
         assert speed * t + 0.5 * thrust * t**2 == pytest.approx(distance, rel=1e-12)
 
 
-def test_guess_is_the_listings(given):
+def test_guess_is_the_listings(parameters):
     """At rest both parts are unit vectors; the duration is ten times the least."""
-    state, target, craft = _first(given)
-    start, shortest = guess(state, target, craft.thrust, given.as_published)
+    state, target, craft = _first(parameters)
+    start, shortest = guess(state, target, craft.thrust, parameters.as_published)
     assert np.linalg.norm(start[:3]) == pytest.approx(1.0)
     assert np.linalg.norm(start[3:6]) == pytest.approx(1.0)
     assert start[6] == pytest.approx(10.0 * shortest)
@@ -64,47 +64,49 @@ def test_no_thrust_where_no_axis_is_active():
 
 
 @pytest.mark.parametrize("transposed", [True, False])
-def test_quadrature_is_the_flight(given, transposed):
+def test_quadrature_is_the_flight(parameters, transposed):
     """A segment by Gauss points against an adaptive method of order 8: 1e-5 m after 100 s."""
-    state, target, craft = _first(given)
-    start, _ = guess(state, target, craft.thrust, given.as_published)
+    state, target, craft = _first(parameters)
+    start, _ = guess(state, target, craft.thrust, parameters.as_published)
     costate = start[:6] * np.repeat([0.02, 1.0], 3)
     from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
 
     x, p = end_of_segment(
-        state, costate, 100.0, rate_matrix(given.mean_motion),
-        costate_matrix(given.mean_motion, transposed), DIRECTED, np.full(3, craft.thrust), 1.0, 128,
+        state, costate, 100.0, rate_matrix(parameters.mean_motion),
+        costate_matrix(parameters.mean_motion, transposed), DIRECTED, np.full(3, craft.thrust),
+        1.0, 128,
     )  # fmt: skip
     _, flown = propagate_segment(
-        state, costate, 100.0, craft, given.mean_motion, 1.0, 1e-12, transposed
+        state, costate, 100.0, craft, parameters.mean_motion, 1.0, 1e-12, transposed
     )
     assert np.abs(x[:3] - flown[-1, :3]).max() < 1e-5
     assert p == pytest.approx(flown[-1, 6:], rel=1e-9)
 
 
-def test_the_same_solve_twice(given):
+def test_the_same_solve_twice(parameters):
     """Not a bit differs."""
-    state, target, craft = _first(given)
+    state, target, craft = _first(parameters)
     solves = [
-        solve_segment(state, target, craft, given.mean_motion, given.as_published) for _ in range(2)
+        solve_segment(state, target, craft, parameters.mean_motion, parameters.as_published)
+        for _ in range(2)
     ]
     assert np.array_equal(solves[0].costate, solves[1].costate)
     assert solves[0].duration == solves[1].duration
 
 
-def test_the_equalities_are_dependent_everywhere_and_ours_bears_them(given):
+def test_the_equalities_are_dependent_everywhere_and_ours_bears_them(parameters):
     """Rank 3 of twelve rows at the guess, and at other points: no solution makes them so.
 
     Seven rows never move, H0 = Hf is an identity along any extremal, and of a direction in space
     two components are free. Each step of ours has a solution nevertheless.
     """
-    state, target, _ = _first(given)
-    meeny = next(c for c in given.races["scenario-1"].cubesats if c.name == "Meeny")
+    state, target, _ = _first(parameters)
+    meeny = next(c for c in parameters.races["scenario-1"].cubesats if c.name == "Meeny")
     state[:3] = meeny.position
-    start, _ = guess(state, target, meeny.thrust, given.as_published)
+    start, _ = guess(state, target, meeny.thrust, parameters.as_published)
     for z in (start, start * [1.0, 0.7, 1.3, 1.2, 0.9, 0.8, 0.5]):
-        moving, rank, pointing = ranks_at(given, z, transposed=True)
+        moving, rank, pointing = ranks_at(parameters, z, transposed=True)
         assert (moving <= 5, rank, pointing) == (True, 3, 2)
-    settings = replace(given.as_published, transposed=True)
-    found = solve_segment(state, target, meeny, given.mean_motion, settings)
+    settings = replace(parameters.as_published, transposed=True)
+    found = solve_segment(state, target, meeny, parameters.mean_motion, settings)
     assert found.status != "no step" and np.isfinite(found.costate).all()

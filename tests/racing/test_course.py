@@ -40,9 +40,9 @@ def test_normal_numbers_are_normal():
     assert abs((z**4).mean() - 3.0) < 4.0 * np.sqrt(96.0) / root
 
 
-def test_first_course_is_the_published_one(given):
+def test_first_course_is_the_published_one(parameters):
     """All 22 rings of Scenario 1 from its seed, to the nine digits of the copy."""
-    table = course_table(given.races["scenario-1"].course)
+    table = course_table(parameters.races["scenario-1"].course)
     published = pd.read_csv(PUBLISHED)
     rings = table["ring"].tolist()
     assert rings == published["ring"].tolist()
@@ -53,28 +53,28 @@ def test_first_course_is_the_published_one(given):
 
 
 @pytest.mark.parametrize(("scenario", "fits"), [("scenario-1", 8), ("scenario-2", 7)])
-def test_start_positions_follow_from_the_seed(given, section, scenario, fits):
+def test_start_positions_follow_from_the_seed(parameters, section, scenario, fits):
     """Printed x and z to half a digit: all of Table 1, all but one of Table 3."""
-    race = given.races[scenario]
-    rings, places = start_positions(given, section["scenarios"][scenario]["seed"], 4)
+    race = parameters.races[scenario]
+    rings, places = start_positions(parameters, section.scenarios[scenario].seed, 4)
     printed = np.array([cubesat.position for cubesat in race.cubesats])
     assert rings == race.course.rings
     assert (np.abs(places - printed)[:, [0, 2]] <= 0.05).sum() == fits
     assert np.abs(places - printed)[:, [0, 2]].max() < 0.07
 
 
-def test_no_neighbouring_day_fits(given):
+def test_no_neighbouring_day_fits(parameters):
     """The day of the seed is the only one of its year within 100 m of Table 3."""
-    days = search_days(given, "scenario-2", 2025, 2025)
+    days = search_days(parameters, "scenario-2", 2025, 2025)
     near = days[days["largest_difference_m"] < 100.0]
     assert near["day"].tolist() == ["2025-05-05"]
 
 
 @pytest.mark.parametrize("halved", [True, False])
-def test_random_courses_keep_the_rules(given, halved):
+def test_random_courses_keep_the_rules(parameters, halved):
     """Distances, axes, number of rings, the mean of all centres: Section I."""
     for seed in range(20):
-        course = generate(np.random.default_rng(seed), given.ranges, halved=halved)
+        course = generate(np.random.default_rng(seed), parameters.ranges, halved=halved)
         gaps = np.linalg.norm(np.diff(course.centres, axis=0), axis=1)
         assert 15 <= course.rings <= 25
         assert ((gaps >= 300.0) & (gaps <= 350.0)).all()
@@ -84,9 +84,9 @@ def test_random_courses_keep_the_rules(given, halved):
         assert np.abs(np.einsum("kij,kj->ki", course.axes, course.normals)).max() < 1e-12
 
 
-def test_a_course_survives_its_table(given):
+def test_a_course_survives_its_table(parameters):
     """Written and read: the same course."""
-    course = given.races["scenario-2"].course
+    course = parameters.races["scenario-2"].course
     again = course_of(course_table(course), "course.csv")
     assert again.centres == pytest.approx(course.centres)
     assert again.semi_axes == pytest.approx(course.semi_axes)
@@ -103,7 +103,7 @@ def test_a_course_survives_its_table(given):
         ),
     ],
 )
-def test_impossible_courses_are_refused(given, damage, words):
+def test_impossible_courses_are_refused(parameters, damage, words):
     """One line that names the ring and what to do."""
     with pytest.raises(InputError, match=words):
-        check_course(damage(given.races["scenario-1"].course), "course.csv")
+        check_course(damage(parameters.races["scenario-1"].course), "course.csv")

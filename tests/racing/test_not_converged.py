@@ -1,6 +1,5 @@
 """A race without a solution is a row with what was tried; what can be solved is right."""
 
-from copy import deepcopy
 from dataclasses import replace
 
 import numpy as np
@@ -28,9 +27,9 @@ WEAK, SLOW = 3e-4, 1e-3
 
 
 @pytest.fixture(scope="module")
-def short(given) -> Course:
+def short(parameters) -> Course:
     """The first rings of Scenario 1."""
-    course = given.races["scenario-1"].course
+    course = parameters.races["scenario-1"].course
     return Course(
         course.start,
         course.centres[:RINGS],
@@ -41,12 +40,11 @@ def short(given) -> Course:
 
 
 @pytest.fixture(scope="module")
-def weak(given, section, short):
+def weak(parameters, section, short):
     """Tables of a race in which the first of two CubeSats is weaker than the tide."""
     cubesats = tuple(CubeSat(n, u, (), short.start) for n, u in (("Eeny", WEAK), ("Meeny", 0.25)))
-    small = deepcopy(section)
-    small["optimum"]["intervals"] = 8
-    changed = replace(given, races=given.races | {"scenario-1": Race(short, cubesats)})
+    small = section.with_(optimum=section.optimum.with_(intervals=8))
+    changed = replace(parameters, races=parameters.races | {"scenario-1": Race(short, cubesats)})
     return solve_optima(changed, small, "scenario-1")
 
 
@@ -64,13 +62,13 @@ def _flown(plan, mean_motion):
     return np.array(ends)
 
 
-def test_a_millimetre_per_second_squared(given, short):
+def test_a_millimetre_per_second_squared(parameters, short):
     """Flown anew by another method every ring is crossed at its centre, to 1e-5 m."""
     craft = CubeSat("slow", SLOW, (), short.start)
     program = CourseProgram(RINGS, "state", 20)
-    plan = attempts.solve(program, whole_leg(short, craft), craft, given.mean_motion)
+    plan = attempts.solve(program, whole_leg(short, craft), craft, parameters.mean_motion)
     assert plan.converged
-    ends = _flown(plan, given.mean_motion)
+    ends = _flown(plan, parameters.mean_motion)
     assert np.linalg.norm(ends[:RINGS, :3] - short.centres, axis=1).max() < 1e-5
     assert np.linalg.norm(np.cross(ends[:RINGS, 3:], short.normals), axis=1).max() < 1e-7
     assert np.linalg.norm(ends[-1] - np.r_[short.end, np.zeros(3)]) < 1e-5
@@ -78,7 +76,7 @@ def test_a_millimetre_per_second_squared(given, short):
 
 
 @pytest.mark.parametrize("length", [0.01, 100.0])
-def test_time_goes_with_the_root_of_the_length(given, short, length):
+def test_time_goes_with_the_root_of_the_length(parameters, short, length):
     """Without a tide to speak of the same course in another size takes the root of it as long."""
     program = CourseProgram(RINGS, "state", 8)
     times = []
@@ -96,52 +94,56 @@ def test_time_goes_with_the_root_of_the_length(given, short, length):
     assert times[1] / times[0] == pytest.approx(np.sqrt(length), rel=1e-6)
 
 
-def test_continuation_finds_what_the_arcs_miss(given, short, monkeypatch):
+def test_continuation_finds_what_the_arcs_miss(parameters, short, monkeypatch):
     """With arcs that lead nowhere the continuation comes to the same optimum."""
     craft = CubeSat("any", 0.25, (), short.start)
     program = CourseProgram(RINGS, "state", 8)
     leg = whole_leg(short, craft)
-    known = program.solve(leg, craft, given.mean_motion)
+    known = program.solve(leg, craft, parameters.mean_motion)
     solve, calls = program.solve, []
 
     def stubborn(leg, cubesat, mean_motion, guess=None, arcs=None):
         calls.append(mean_motion)
         plan = solve(leg, cubesat, mean_motion, guess, arcs)
-        first = guess is None and mean_motion == given.mean_motion
+        first = guess is None and mean_motion == parameters.mean_motion
         return replace(plan, solution=replace(plan.solution, converged=False)) if first else plan
 
     monkeypatch.setattr(program, "solve", stubborn)
-    plan = attempts.solve(program, leg, craft, given.mean_motion)
+    plan = attempts.solve(program, leg, craft, parameters.mean_motion)
     assert plan.converged
     assert plan.time == pytest.approx(known.time, rel=1e-6)
     assert plan.tried[0] == attempts.SMOOTH
     assert plan.tried[-1].endswith("100 % of it")
-    assert min(calls) < given.mean_motion
+    assert min(calls) < parameters.mean_motion
 
 
 @pytest.mark.parametrize("largest", [0.4, 2.3])
-def test_dynamic_programming_finds_its_range(given, section, short, largest):
+def test_dynamic_programming_finds_its_range(parameters, section, short, largest):
     """Too small a range of speeds is widened, to within 0.5 % of the whole-course optimum."""
     craft = CubeSat("Meeny", 0.25, (), short.start)
-    small = deepcopy(section)
-    small["optimum"]["intervals"] = 8
-    small["dynamic_programming"] |= {"largest_speed": largest, "speeds": 5, "refinements": 3}
-    changed = replace(given, races=given.races | {"scenario-1": Race(short, (craft,))})
+    small = section.with_(
+        optimum=section.optimum.with_(intervals=8),
+        dynamic_programming=section.dynamic_programming.with_(
+            largest_speed=largest, speeds=5, refinements=3
+        ),
+    )
+    changed = replace(parameters, races=parameters.races | {"scenario-1": Race(short, (craft,))})
     table, missing = checks.dynamic_programming(changed, small, "scenario-1")
     whole = CourseProgram(RINGS, "state", 8).solve(
-        whole_leg(short, craft), craft, given.mean_motion
+        whole_leg(short, craft), craft, parameters.mean_motion
     )
     assert not missing
     assert whole.time <= table["time_s"].iloc[-1] < 1.005 * whole.time
 
 
-def test_dynamic_programming_without_a_path_is_a_row(given, section, short):
+def test_dynamic_programming_without_a_path_is_a_row(parameters, section, short):
     """Weaker than the tide, no segment is solved: no time, and what was tried."""
     craft = CubeSat("Meeny", WEAK, (), short.start)
-    small = deepcopy(section)
-    small["optimum"]["intervals"] = 4
-    small["dynamic_programming"] |= {"speeds": 3, "refinements": 1}
-    changed = replace(given, races=given.races | {"scenario-1": Race(short, (craft,))})
+    small = section.with_(
+        optimum=section.optimum.with_(intervals=4),
+        dynamic_programming=section.dynamic_programming.with_(speeds=3, refinements=1),
+    )
+    changed = replace(parameters, races=parameters.races | {"scenario-1": Race(short, (craft,))})
     table, missing = checks.dynamic_programming(changed, small, "scenario-1")
     assert table["time_s"].isna().all()
     assert [one.case for one in missing] == ["scenario-1, Meeny, dynamic programming"]
@@ -192,10 +194,10 @@ def test_a_missing_race_is_drawn_as_missing(weak, short):
     plt.close("all")
 
 
-def test_claims_wait_for_a_missing_race(weak, tmp_path, config, grounds):
+def test_claims_wait_for_a_missing_race(weak, tmp_path, section, grounds):
     """They need all CubeSats, and raise what makes a claim undecided."""
     write_table(weak.files("weak")["weak-races.csv"], tmp_path / "races.csv")
-    given = grounds("racing", config, tmp_path)
+    given = grounds("racing", section, tmp_path)
     for claim in (claims.mo_slower_than_meeny, claims.whole_course_remedies, claims.not_smooth):
         with pytest.raises(LookupError):
             claim(given)

@@ -18,8 +18,8 @@ AXIAL = cubesat("axial", 0.1667, np.zeros(3), axial=True)
 
 
 @pytest.fixture(scope="module")
-def leg(given):
-    race = given.races["scenario-1"]
+def leg(parameters):
+    race = parameters.races["scenario-1"]
     course = race.course
     return Leg(
         race.cubesats[1].position,
@@ -37,11 +37,11 @@ def program():
 
 
 @pytest.mark.parametrize("craft", [FREE, AXIAL], ids=["free", "axial"])
-def test_rings_are_crossed_when_flown_adaptively(given, leg, program, craft):
+def test_rings_are_crossed_when_flown_adaptively(parameters, leg, program, craft):
     """Flown by an adaptive method of order 8 from the start on: 1e-6 m, 1e-8 m/s, within limits."""
-    plan = program.solve(leg, craft, given.mean_motion)
+    plan = program.solve(leg, craft, parameters.mean_motion)
     assert plan.converged
-    a, state = rate_matrix(given.mean_motion), plan.starts[0]
+    a, state = rate_matrix(parameters.mean_motion), plan.starts[0]
     for k in range(RINGS + 1):
         h = plan.durations[k] / plan.controls.shape[1]
         for u in plan.controls[k]:
@@ -57,25 +57,25 @@ def test_rings_are_crossed_when_flown_adaptively(given, leg, program, craft):
             assert state[3:] @ leg.normals[k] > 0.0
     assert np.linalg.norm(state[:3] - leg.end_position) < 1e-6
     assert np.linalg.norm(state[3:]) < 1e-6
-    assert residual(plan, propagate_plan(plan, given.mean_motion), craft, None) < 1e-6
+    assert residual(plan, propagate_plan(plan, parameters.mean_motion), craft, None) < 1e-6
 
 
-def test_nested_meshes_never_get_worse(given, leg):
+def test_nested_meshes_never_get_worse(parameters, leg):
     """Halved pieces contain the old plan: times fall, by less and less."""
-    times = [CourseProgram(RINGS, "state", n).solve(leg, FREE, given.mean_motion).time
+    times = [CourseProgram(RINGS, "state", n).solve(leg, FREE, parameters.mean_motion).time
              for n in (10, 20, 40)]  # fmt: skip
     assert times[0] >= times[1] >= times[2]
     assert times[0] - times[1] > times[1] - times[2]
 
 
-def test_rest_anywhere_is_no_slower(given, leg, program):
+def test_rest_anywhere_is_no_slower(parameters, leg, program):
     """Freeing the finish cannot cost time."""
-    free = CourseProgram(RINGS, "rest anywhere", 20).solve(leg, FREE, given.mean_motion)
+    free = CourseProgram(RINGS, "rest anywhere", 20).solve(leg, FREE, parameters.mean_motion)
     assert free.converged
-    assert free.time < program.solve(leg, FREE, given.mean_motion).time
+    assert free.time < program.solve(leg, FREE, parameters.mean_motion).time
 
 
-def test_whole_course_beats_its_segments(given, leg, program):
+def test_whole_course_beats_its_segments(parameters, leg, program):
     """One problem is at least as good as ring after ring."""
     state, total = np.r_[leg.position, leg.velocity], 0.0
     for k in range(RINGS + 1):
@@ -83,16 +83,16 @@ def test_whole_course_beats_its_segments(given, leg, program):
         part = Leg(state[:3], state[3:], leg.centres[k : k + 1], leg.normals[k : k + 1],
                    leg.end_position, REST)  # fmt: skip
         solver = CourseProgram(0 if last else 1, "state" if last else "ring", 20)
-        plan = solver.solve(part, FREE, given.mean_motion)
+        plan = solver.solve(part, FREE, parameters.mean_motion)
         assert plan.converged
         total, state = total + plan.time, plan.final
-    assert program.solve(leg, FREE, given.mean_motion).time <= total + 1e-6
+    assert program.solve(leg, FREE, parameters.mean_motion).time <= total + 1e-6
 
 
-def test_the_minimum_principle(given, leg, program):
+def test_the_minimum_principle(parameters, leg, program):
     """Thrust against the multipliers' primer to 0.1 deg; H = -1 to 5 %, in the median 0.5 %."""
-    plan = program.solve(leg, FREE, given.mean_motion)
-    found = primer_check(plan, FREE, given.mean_motion)
+    plan = program.solve(leg, FREE, parameters.mean_motion)
+    found = primer_check(plan, FREE, parameters.mean_motion)
     assert found["primer_angle_largest_deg"] < 0.1
     assert found["hamiltonian_error"] < 0.05
     assert found["hamiltonian_median_error"] < 0.005
@@ -100,21 +100,21 @@ def test_the_minimum_principle(given, leg, program):
     assert found["largest_ring_multiplier_s_m"] < 1.0
 
 
-def test_a_wrong_costate_would_show(given, leg, program):
+def test_a_wrong_costate_would_show(parameters, leg, program):
     """The check of the principle fails where the costates are turned."""
     from dataclasses import replace
 
-    plan = program.solve(leg, FREE, given.mean_motion)
+    plan = program.solve(leg, FREE, parameters.mean_motion)
     turned = replace(plan, costates=plan.costates[:, [1, 0, 2, 4, 3, 5]])
-    assert primer_check(turned, FREE, given.mean_motion)["primer_angle_largest_deg"] > 1.0
+    assert primer_check(turned, FREE, parameters.mean_motion)["primer_angle_largest_deg"] > 1.0
 
 
-def test_direct_and_indirect_agree(given, leg):
+def test_direct_and_indirect_agree(parameters, leg):
     """First segment: the extremal is faster than the held plan by less than 0.5 %."""
     part = Leg(leg.position, REST, leg.centres[:1], leg.normals[:1], leg.end_position, REST)
-    plan = CourseProgram(1, "ring", 20).solve(part, FREE, given.mean_motion)
+    plan = CourseProgram(1, "ring", 20).solve(part, FREE, parameters.mean_motion)
     goal = indirect.Goal(leg.centres[0], leg.normals[0])
-    found = indirect.solve(plan.starts[0], goal, FREE.thrust, given.mean_motion,
+    found = indirect.solve(plan.starts[0], goal, FREE.thrust, parameters.mean_motion,
                            plan.costates[0], plan.time, 64)  # fmt: skip
     assert found.converged
     assert 0.995 * plan.time < found.duration <= plan.time + 1e-9

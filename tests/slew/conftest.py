@@ -1,18 +1,13 @@
-from pathlib import Path
-
 import pytest
 
-from smallsat.strict_yaml import read_yaml
-from smallsat.studies.slew.parameters import parameters
-
-CONFIG = Path(__file__).parents[2] / "config/default/slew.yaml"
+from smallsat.studies.slew.parameters import Parameters
 
 
 @pytest.fixture(scope="session")
-def section():
-    return read_yaml(CONFIG)["slew"]
+def section(config):
+    return config.slew
 
 
 @pytest.fixture(scope="session")
-def given(section):
-    return parameters(section)
+def parameters(section):
+    return Parameters.from_section(section)

@@ -1,7 +1,5 @@
 """Times in which there is no plan: rows that say so, and nothing that rests on them."""
 
-import copy
-
 import numpy as np
 import pandas as pd
 import pytest
@@ -17,25 +15,26 @@ from smallsat.studies.slew.methods.flown import _position
 from smallsat.studies.slew.methods.guidance_problem import Model, kepler_steps
 from smallsat.studies.slew.methods.plans import HELD_COLUMNS, guidance_model, joined
 from smallsat.studies.slew.methods.turns import turn_plans
-from smallsat.studies.slew.parameters import parameters
+from smallsat.studies.slew.parameters import Parameters
 
 
 @pytest.fixture(scope="module")
 def small(section):
     """Few points and starts, for solves that end in a second."""
-    few = copy.deepcopy(section)
-    few["numerics"] |= {"starts": 1, "held_intervals": 20}
-    for case in ("quarter", "half"):
-        few["manoeuvre"][case] |= {"nodes": 8, "segments": 2, "segment_nodes": 4}
-    return few
+    manoeuvre, few = section.manoeuvre, {"nodes": 8, "segments": 2, "segment_nodes": 4}
+    return section.with_(
+        numerics=section.numerics.with_(starts=1, held_intervals=20),
+        manoeuvre=manoeuvre.with_(
+            quarter=manoeuvre.quarter.with_(**few), half=manoeuvre.half.with_(**few)
+        ),
+    )
 
 
 def planned(section, case, duration):
     """The plans of a turn on both meshes, in a time of its own."""
-    timed = copy.deepcopy(section)
-    timed["manoeuvre"]["duration_s"] = duration
-    given = parameters(timed)
-    return list(turn_plans(guidance_model(given), given, case, timed))
+    timed = section.with_(manoeuvre=section.manoeuvre.with_(duration_s=duration))
+    parameters = Parameters.from_section(timed)
+    return list(turn_plans(guidance_model(parameters), parameters, case, timed))
 
 
 def test_a_quarter_turn_in_a_fraction_of_its_time_is_a_row(small):
@@ -71,7 +70,7 @@ def test_no_plan_at_all_leaves_tables_with_their_columns():
     assert len(joined([], HELD_COLUMNS)) == 0
 
 
-def test_claims_are_undecided_or_right_about_another_time(section, tmp_path, grounds):
+def test_claims_are_undecided_or_right_about_another_time(section, tmp_path, grounds, changed):
     """With a plan the document's guess fails; between the bound and a plan nobody knows."""
     times = pd.DataFrame(
         {
@@ -87,9 +86,8 @@ def test_claims_are_undecided_or_right_about_another_time(section, tmp_path, gro
     for duration, solved in ((100.0, False), (104.0, False), (130.0, True)):
         answer = {"mesh": ["segments"], "hard_status": ["status"], "hard_converged": [solved]}
         pd.DataFrame(answer | {"miss": [0.1]}).to_csv(tmp_path / "infeasible.csv", index=False)
-        config = {"slew": copy.deepcopy(section)}
-        config["slew"]["manoeuvre"]["duration_s"] = duration
-        given = grounds("slew", config, tmp_path)
+        other = changed(section, "manoeuvre.duration_s", duration)
+        given = grounds("slew", other, tmp_path)
         outcomes[duration] = (
             claims.not_in_the_given_time(given).outcome,
             claims.valid_trajectory_at_limits(given).outcome,
@@ -106,16 +104,15 @@ def test_a_least_time_that_was_not_found_decides_nothing(section, tmp_path, grou
     times = {"case": ["180 deg, wheels"], "duration_s": [np.nan], "converged": [False]}
     pd.DataFrame(times).to_csv(tmp_path / "minimum-times.csv", index=False)
     with pytest.raises(LookupError):
-        claims.eigenaxis_is_not_fastest(grounds("slew", {"slew": section}, tmp_path))
+        claims.eigenaxis_is_not_fastest(grounds("slew", section, tmp_path))
 
 
-def test_claims_about_yaw_need_a_turn_about_z(section, tmp_path, grounds):
+def test_claims_about_yaw_need_a_turn_about_z(section, tmp_path, grounds, changed):
     """For another axis the printed words mean nothing: not judged."""
-    config = {"slew": copy.deepcopy(section)}
-    config["slew"]["manoeuvre"]["quarter"]["target_quaternion"] = [0.6, 0.0, 0.0, 0.8]
+    other = changed(section, "manoeuvre.quarter.target_quaternion", (0.6, 0.0, 0.0, 0.8))
     for predicate in (claims.better_than_eigenaxis, claims.open_loop_follows):
         with pytest.raises(LookupError, match="not about"):
-            predicate(grounds("slew", config, tmp_path))
+            predicate(grounds("slew", other, tmp_path))
 
 
 @pytest.mark.parametrize(
@@ -127,7 +124,7 @@ def test_what_is_short_of_a_target_goes_the_shorter_way(angle, target, short):
     assert short_of(angle, target) == short
 
 
-def test_a_flight_that_never_settles_has_no_time(given):
+def test_a_flight_that_never_settles_has_no_time(parameters):
     """Not a number, instead of a place beyond the table; at rest at the target it is the start."""
     turn = np.radians(45.0)
     rows = {"time_s": [0.0, 1.0], "q_1": 0.0, "q_2": 0.0, "q_3": np.sin(turn), "q_4": np.cos(turn)}
@@ -136,13 +133,13 @@ def test_a_flight_that_never_settles_has_no_time(given):
     assert comparable_time(flown, 90.0, 0.9) == 0.0
 
 
-def test_the_least_infeasible_plan_stands_in_where_there_is_no_other(given):
+def test_the_least_infeasible_plan_stands_in_where_there_is_no_other(parameters):
     """The plan of least torque is shown if there is one."""
     names = ["180 deg, least infeasible, segments", "180 deg, segments"]
     both = pd.DataFrame({"plan": names})
-    assert chosen_plan(both, "plan", given, "half", "segments")[0] == names[1]
-    assert chosen_plan(both[:1], "plan", given, "half", "segments")[0] == names[0]
-    assert not len(chosen_plan(both[:0], "plan", given, "half", "segments")[1])
+    assert chosen_plan(both, "plan", parameters, "half", "segments")[0] == names[1]
+    assert chosen_plan(both[:1], "plan", parameters, "half", "segments")[0] == names[0]
+    assert not len(chosen_plan(both[:0], "plan", parameters, "half", "segments")[1])
 
 
 def test_drag_that_dominates_everywhere_has_no_crossover():
@@ -160,17 +157,16 @@ def test_drag_that_dominates_everywhere_has_no_crossover():
     assert np.isnan(crossover_km(table.assign(drag_N_m=3.0), 1.0))
 
 
-def test_an_eccentric_orbit_is_followed_as_well_as_a_round_one(section):
+def test_an_eccentric_orbit_is_followed_as_well_as_a_round_one(parameters):
     """Kepler's equation of the guidance and of the independent flight agree to 1e-9."""
-    given = parameters(section)
-    orbit = given.orbit._replace(eccentricity=0.6)
+    orbit = parameters.orbit._replace(eccentricity=0.6)
     mean = 0.7
     anomaly = mean
     for _ in range(kepler_steps(0.6)):
         anomaly = mean + 0.6 * np.sin(anomaly)
     assert anomaly - 0.6 * np.sin(anomaly) == pytest.approx(mean, abs=1e-12)
-    time = mean * np.sqrt(orbit.semi_major_axis**3 / given.gravity.mu)
-    radius = np.linalg.norm(_position(orbit, given.gravity.mu, time))
+    time = mean * np.sqrt(orbit.semi_major_axis**3 / parameters.gravity.mu)
+    radius = np.linalg.norm(_position(orbit, parameters.gravity.mu, time))
     expected = orbit.semi_major_axis * (1.0 - 0.6 * np.cos(anomaly))
     assert radius == pytest.approx(expected, rel=1e-9)
 
@@ -197,13 +193,12 @@ def test_a_missing_figure_says_which():
     assert figure.axes[0].texts[0].get_text() == data["note"][0] == "no plan: 90 deg, one segment"
 
 
-def test_axes_that_switch_together_have_their_least_time(section, given):
+def test_axes_that_switch_together_have_their_least_time(section, parameters):
     """120 deg about (1, 1, 1), unit moments and torques: by hand 2 sqrt(angle / sqrt 3)."""
     body = Model(np.eye(3), 1.0, 1e6, 1.0, False, None)
-    few = copy.deepcopy(section)
-    few["numerics"]["starts"] = 1
+    few = section.numerics.with_(starts=1)
     target = np.full(4, 0.5)
-    found = minimum_time.least_time(body, given.initial, target, 2.3, Mesh(4, 6), few)
+    found = minimum_time.least_time(body, parameters.initial, target, 2.3, Mesh(4, 6), few)
     assert found.converged
     assert found.duration == pytest.approx(
         2.0 * np.sqrt(2.0 * np.pi / 3.0 / np.sqrt(3.0)), rel=1e-3
@@ -211,15 +206,14 @@ def test_axes_that_switch_together_have_their_least_time(section, given):
     assert found.attitude_miss < 1e-3
 
 
-def test_a_wheel_that_fills_slows_the_turn_and_is_not_taken_for_bang_bang(section, given):
+def test_a_wheel_that_fills_slows_the_turn_and_is_not_taken_for_bang_bang(section, parameters):
     """Momentum a third of what the unlimited turn uses: a longer time, without switching times."""
-    few = copy.deepcopy(section)
-    few["numerics"]["starts"] = 1
+    few = section.numerics.with_(starts=1)
     times = {}
     for limit in (1e6, 0.5):
         body = Model(np.eye(3), 1.0, limit, 1.0, False, None)
         found = minimum_time.least_time(
-            body, given.initial, given.targets["quarter"], 3.0, Mesh(6, 6), few
+            body, parameters.initial, parameters.targets["quarter"], 3.0, Mesh(6, 6), few
         )
         assert found.converged and found.momentum_limited == (limit < 1.0)
         times[limit] = found.duration

@@ -1,25 +1,12 @@
 """What follows from the quaternions, and what contradicts and is refused."""
 
-import copy
-
 import numpy as np
 import pytest
 
 from smallsat.errors import InputError
 from smallsat.studies.slew.methods.bound import bound_time, needed, plan_titles
 from smallsat.studies.slew.methods.minimum_time import DOCUMENT_GUESS, eigenaxis_time, guess
-from smallsat.studies.slew.parameters import check, half_angle_deg, parameters, quarter_angle_deg
-
-
-def changed(section, keys, value):
-    """The section with one entry replaced; ``keys`` is its dotted key."""
-    copied = copy.deepcopy(section)
-    entry = copied
-    *way, last = keys.split(".")
-    for key in way:
-        entry = entry[key]
-    entry[last] = value
-    return copied
+from smallsat.studies.slew.parameters import Parameters, check, half_angle_deg, quarter_angle_deg
 
 
 def about(axis, angle_deg):
@@ -30,33 +17,33 @@ def about(axis, angle_deg):
 
 def test_printed_angles_follow_from_the_quaternions(section):
     """Exactly 90 and 180 deg, as printed."""
-    assert quarter_angle_deg({"slew": section}) == 90.0
-    assert half_angle_deg({"slew": section}) == 180.0
+    assert quarter_angle_deg(section) == 90.0
+    assert half_angle_deg(section) == 180.0
 
 
 @pytest.mark.parametrize("angle", [45.0, 120.0])
-def test_names_follow_the_turns(section, angle):
+def test_names_follow_the_turns(section, changed, angle):
     """A turn is called by its angle whatever its axis, and relative to where it begins."""
     start = about((1.0, 2.0, -1.0), 70.0)
     turned = changed(section, "manoeuvre.initial_quaternion", [0.0, 0.0, 0.0, 1.0])
     turned = changed(turned, "manoeuvre.half.target_quaternion", about((1.0, 1.0, 1.0), angle))
-    given = parameters(turned)
-    assert given.angle_deg("half") == pytest.approx(angle)
-    assert given.names["half"] == f"{angle:g} deg"
-    np.testing.assert_allclose(given.axis("half"), np.full(3, 3**-0.5))
+    parameters = Parameters.from_section(turned)
+    assert parameters.angle_deg("half") == pytest.approx(angle)
+    assert parameters.names["half"] == f"{angle:g} deg"
+    np.testing.assert_allclose(parameters.axis("half"), np.full(3, 3**-0.5))
     moved = changed(turned, "manoeuvre.initial_quaternion", start)
-    assert parameters(moved).angle_deg("half") != pytest.approx(angle)
+    assert Parameters.from_section(moved).angle_deg("half") != pytest.approx(angle)
 
 
-def test_turns_of_one_angle_have_two_names(section):
+def test_turns_of_one_angle_have_two_names(section, changed):
     """Else one table would hold two plans of one name."""
     same = changed(section, "manoeuvre.quarter.target_quaternion", about((1.0, 0.0, 0.0), 180.0))
-    names = parameters(same).names
+    names = Parameters.from_section(same).names
     assert names == {"quarter": "180 deg, quarter", "half": "180 deg, half"}
 
 
 @pytest.mark.parametrize(
-    ("keys", "value", "words"),
+    ("key", "value", "words"),
     [
         ("manoeuvre.half.target_quaternion", [0.0, 0.0, 0.0, 1.0], ("half.target", "initial")),
         ("manoeuvre.quarter.target_quaternion", [0.0, 0.0, 0.0, -1.0], ("quarter.target",)),
@@ -69,24 +56,24 @@ def test_turns_of_one_angle_have_two_names(section):
         ("environment.density_factors", [0.5, 2.0], ("density_factors", "factor 1")),
     ],
 )
-def test_what_contradicts_is_refused(section, keys, value, words):
+def test_what_contradicts_is_refused(section, changed, key, value, words):
     """One line that names the key, the value and what would agree."""
     check(section)
     with pytest.raises(InputError) as refusal:
-        check(changed(section, keys, value))
+        check(changed(section, key, value))
     for word in words:
         assert word in str(refusal.value)
     assert "\n" not in str(refusal.value)
 
 
-def test_guesses_of_least_times_follow_body_and_wheels(section, given):
+def test_guesses_of_least_times_follow_body_and_wheels(section, parameters, changed):
     """The document's own for its turns; twice the time for a quarter of the torque."""
-    assert {case: guess(given, case) for case in DOCUMENT_GUESS} == DOCUMENT_GUESS
-    weak = parameters(changed(section, "wheels.torque_mN_m", 0.025))
+    assert {case: guess(parameters, case) for case in DOCUMENT_GUESS} == DOCUMENT_GUESS
+    weak = Parameters.from_section(changed(section, "wheels.torque_mN_m", 0.025))
     assert guess(weak, "half") == pytest.approx(2.0 * DOCUMENT_GUESS["half"])
 
 
-def test_a_full_wheel_coasts(given):
+def test_a_full_wheel_coasts(parameters):
     """By hand: the momentum over the torque to fill it, and the rest of the angle at its rate."""
     angle, moment, torque, momentum = np.pi, 0.126, 6.25e-4, 10.3e-3
     time = eigenaxis_time(angle, moment, torque, momentum)
@@ -96,25 +83,29 @@ def test_a_full_wheel_coasts(given):
     assert time > 2.0 * np.sqrt(angle * moment / torque)
 
 
-def test_bound_is_that_of_the_turn(section, given):
+def test_bound_is_that_of_the_turn(section, parameters, changed):
     """A smaller turn is proven impossible in less time only; one about x not at all."""
-    assert needed(given, "half") == pytest.approx(np.pi)
-    third = parameters(changed(section, "manoeuvre.half.target_quaternion", about((0, 0, 1), 120)))
-    assert bound_time(third, True) < bound_time(given, True)
-    rolled = parameters(changed(section, "manoeuvre.half.target_quaternion", [1.0, 0.0, 0.0, 0.0]))
+    assert needed(parameters, "half") == pytest.approx(np.pi)
+    third = Parameters.from_section(
+        changed(section, "manoeuvre.half.target_quaternion", about((0, 0, 1), 120))
+    )
+    assert bound_time(third, True) < bound_time(parameters, True)
+    rolled = Parameters.from_section(
+        changed(section, "manoeuvre.half.target_quaternion", [1.0, 0.0, 0.0, 0.0])
+    )
     assert bound_time(rolled, True) == 0.0
-    weak = parameters(changed(section, "wheels.torque_mN_m", 1e-4))
-    assert bound_time(weak, False) == pytest.approx(np.sqrt(1e3) * bound_time(given, False))
+    weak = Parameters.from_section(changed(section, "wheels.torque_mN_m", 1e-4))
+    assert bound_time(weak, False) == pytest.approx(np.sqrt(1e3) * bound_time(parameters, False))
 
 
-def test_bound_counts_products_of_inertia(section, given):
+def test_bound_counts_products_of_inertia(section, parameters, changed):
     """The rates that a momentum can make grow with them, and the bound must not exclude those."""
     tensor = [[0.059, 0.02, 0.0], [0.02, 0.114, -0.03], [0.0, -0.03, 0.126]]
-    other = parameters(changed(section, "spacecraft.inertia_kg_m2", tensor))
-    assert bound_time(other, False) < bound_time(given, False)
+    other = Parameters.from_section(changed(section, "spacecraft.inertia_kg_m2", tensor))
+    assert bound_time(other, False) < bound_time(parameters, False)
 
 
-def test_titles_say_what_is_known(section):
+def test_titles_say_what_is_known(section, changed):
     """Impossible only where the bound proves it."""
     least = "180 deg, least infeasible, one segment"
     assert "cannot be reached" in plan_titles(section, "half")[least]

@@ -1,12 +1,11 @@
 """The slew study: models, least times, plans, and what is refused."""
 
-import copy
-
 import numpy as np
 import pytest
 
 from smallsat.errors import InputError
 from smallsat.optimal_control.gauss_pseudospectral import Mesh
+from smallsat.studies.slew.configuration import Controller
 from smallsat.studies.slew.evidence.claims import bang_coast_bang
 from smallsat.studies.slew.methods import minimum_time
 from smallsat.studies.slew.methods.bound import bound_time, largest_disturbance, reach
@@ -20,42 +19,50 @@ from smallsat.studies.slew.parameters import check, panels
 LITERATURE = {"half": 3.243, "quarter": 2.4211}
 
 
-def test_start_is_that_of_table_2(given):
+def test_start_is_that_of_table_2(parameters):
     """r_0 and v_0 from the elements, to the printed digits."""
-    r, v = given.state
+    r, v = parameters.state
     assert r[0] / 1e3 == pytest.approx(6744.1, abs=0.05)
     assert r[1] / 1e3 == pytest.approx(-1.652e-12, abs=0.5e-15)
     assert r[2] / 1e3 == pytest.approx(11.77, abs=0.005)
     assert v[1] / 1e3 == pytest.approx(7.707, abs=0.0005)
 
 
-def test_without_the_environment_total_momentum_stays_zero(given):
+def test_without_the_environment_total_momentum_stays_zero(parameters):
     """J w = h all the way where the wheels carry momentum: to 1e-6 of the wheels' limit."""
-    model = plant(given, gradient=False, drag=0.0)
-    law = {"controller": {"natural_frequency_rad_s": 0.13, "damping_ratio": 1.0}}
-    command = controller(law, given, "half")._replace(target=np.array([0.5, 0.5, 0.5, 0.5]))
-    flown = run(given, model, command, 60.0, 0.01)
+    model = plant(parameters, gradient=False, drag=0.0)
+    law = Controller(natural_frequency_rad_s=0.13, damping_ratio=1.0)
+    command = controller(law, parameters, "half")._replace(target=np.array([0.5, 0.5, 0.5, 0.5]))
+    flown = run(parameters, model, command, 60.0, 0.01)
     rates = flown[["omega_x", "omega_y", "omega_z"]].to_numpy()
     momentum = flown[["h_x", "h_y", "h_z"]].to_numpy()
     assert np.abs(momentum).max() > 1e-3
-    np.testing.assert_allclose(rates @ given.inertia, momentum, atol=1e-6 * given.momentum)
+    np.testing.assert_allclose(
+        rates @ parameters.inertia, momentum, atol=1e-6 * parameters.momentum
+    )
 
 
-def test_step_of_the_simulation_is_fine_enough(section, given):
+def test_step_of_the_simulation_is_fine_enough(section, parameters):
     """Half the step changes no angle of the eigenaxis turn by more than 1e-4 deg."""
-    command = controller(section, given, "quarter")
+    command = controller(section.controller, parameters, "quarter")
     ends = [
-        angles_deg(run(given, plant(given), command, 100.0, step).tail(1))[0]
+        angles_deg(run(parameters, plant(parameters), command, 100.0, step).tail(1))[0]
         for step in (0.01, 0.005)
     ]
     np.testing.assert_allclose(*ends, atol=1e-4)
 
 
-def test_sampled_controller_approaches_the_continuous_one(section, given):
+def test_sampled_controller_approaches_the_continuous_one(section, parameters):
     """A torque held for 0.1 s moves the final yaw by below 0.01 deg, and less than 2 s do."""
     yaw = {
         held: angles_deg(
-            run(given, plant(given), controller(section, given, "quarter", held), 100.0, 0.01)
+            run(
+                parameters,
+                plant(parameters),
+                controller(section.controller, parameters, "quarter", held),
+                100.0,
+                0.01,
+            )
         )[-1, 2]
         for held in (0, 10, 200)
     }
@@ -64,89 +71,102 @@ def test_sampled_controller_approaches_the_continuous_one(section, given):
 
 def test_symmetric_panels_give_no_torque(section):
     """Table 5: area times half-depth is the same for all panels, so only the offset acts."""
-    table = panels(section, offset=0.0)
+    table = panels(section.spacecraft, offset=0.0)
     levers = table[:, 0] * np.linalg.norm(table[:, 4:7], axis=1)
     np.testing.assert_allclose(levers, levers[0], rtol=1e-12)
 
 
 @pytest.mark.parametrize("case", ["half", "quarter"])
-def test_benchmark_of_bilimoria_and_wie(section, given, case):
+def test_benchmark_of_bilimoria_and_wie(section, parameters, case):
     """Least times for equal moments and unit torques: within 1e-3 of the literature."""
-    few = copy.deepcopy(section)
-    few["numerics"]["starts"] = 6
+    few = section.numerics.with_(starts=6)
     body = Model(np.eye(3), 1.0, 1e6, 1.0, False, None)
     about = LITERATURE[case] * 1.05
     found = minimum_time.least_time(
-        body, given.initial, given.targets[case], about, Mesh(10, 6), few
+        body, parameters.initial, parameters.targets[case], about, Mesh(10, 6), few
     )
     assert found.converged
     assert found.duration == pytest.approx(LITERATURE[case], abs=1e-3)
     assert found.attitude_miss < 1e-6
 
 
-def test_bound_is_below_every_plan_and_above_the_printed_time(given):
+def test_bound_is_below_every_plan_and_above_the_printed_time(parameters):
     """No plan in 100 s: the bound lies between 100 s and the least time of about 105.39 s."""
-    bare, outer = (bound_time(given, gradient) for gradient in (False, True))
-    assert given.duration < outer < bare < 105.38
+    bare, outer = (bound_time(parameters, gradient) for gradient in (False, True))
+    assert parameters.duration < outer < bare < 105.38
     # By hand without the environment: pi = sqrt(a_y^2 + a_z^2) t^2 / 4.
-    rate = given.torque * np.hypot(1 / given.inertia[1, 1], 1 / given.inertia[2, 2])
+    rate = parameters.torque * np.hypot(1 / parameters.inertia[1, 1], 1 / parameters.inertia[2, 2])
     assert bare == pytest.approx(2.0 * np.sqrt(np.pi / rate), rel=1e-4)
 
 
-def test_bound_covers_flown_motion(section, given):
+def test_bound_covers_flown_motion(section, parameters):
     """The path of the x axis in a flown eigenaxis turn stays below its bound."""
-    flown = run(given, plant(given), controller(section, given, "half"), 100.0, 0.01)
+    flown = run(
+        parameters,
+        plant(parameters),
+        controller(section.controller, parameters, "half"),
+        100.0,
+        0.01,
+    )
     speed = np.hypot(flown["omega_y"], flown["omega_z"])
     path = np.trapezoid(speed, flown["time_s"])
     left = tuple(np.abs(flown[["h_x", "h_y", "h_z"]].to_numpy()[-1]))
-    bound = reach(given.inertia, given.torque, 100.0, left, largest_disturbance(given, 100.0))
+    bound = reach(
+        parameters.inertia, parameters.torque, 100.0, left, largest_disturbance(parameters, 100.0)
+    )
     assert path < bound
 
 
-def test_quarter_turn_is_the_bang_coast_bang_by_hand(section, given):
+def test_quarter_turn_is_the_bang_coast_bang_by_hand(section, parameters):
     """Without gravity gradient: held plan within 0.05 % of the cost by hand, peak to 0.1 %."""
-    model = Model(given.inertia, given.torque, given.momentum, 100.0, True, None)
-    result, starts = best_plan(model, given, "quarter", 100.0, Mesh(4, 5), section, 3)
+    model = Model(parameters.inertia, parameters.torque, parameters.momentum, 100.0, True, None)
+    result, starts = best_plan(model, parameters, "quarter", 100.0, Mesh(4, 5), section.numerics, 3)
     assert starts["converged"].any()
-    held = hold(model, given, "quarter", result, section)
+    held = hold(model, parameters, "quarter", result, section.numerics)
     assert held.solution.converged
-    cost, peak = bang_coast_bang(np.pi / 2, given.inertia[2, 2], given.torque, 100.0)
+    cost, peak = bang_coast_bang(np.pi / 2, parameters.inertia[2, 2], parameters.torque, 100.0)
     assert held.cost == pytest.approx(cost, rel=5e-4)
     flown = np.abs(held.states[:, 9]).max() * model.momentum_unit
     assert flown == pytest.approx(peak, rel=1e-3)
     assert held.attitude_miss < 1e-6
 
 
-def test_half_turn_in_the_printed_time_is_refused(section, given):
+def test_half_turn_in_the_printed_time_is_refused(section, parameters):
     """No plan exists in that time; the least-infeasible one converges and misses its end."""
-    assert bound_time(given, True) > 100.0
-    model = guidance_model(given)
-    result, refused = least_infeasible(model, given, "half", 100.0, Mesh(10, 6), section)
+    assert bound_time(parameters, True) > 100.0
+    model = guidance_model(parameters)
+    result, refused = least_infeasible(
+        model, parameters, "half", 100.0, Mesh(10, 6), section.numerics
+    )
     assert not refused.converged
     assert result.solution.converged and result.solution.objective > 0.01
 
 
-def test_usage_is_in_percent_of_the_limits(section, given):
+def test_usage_is_in_percent_of_the_limits(section, parameters):
     """The eigenaxis law saturates the wheel about z, and never exceeds it."""
-    flown = run(given, plant(given), controller(section, given, "half"), 100.0, 0.01)
-    torque, _ = usage_pct(flown, given)
+    flown = run(
+        parameters,
+        plant(parameters),
+        controller(section.controller, parameters, "half"),
+        100.0,
+        0.01,
+    )
+    torque, _ = usage_pct(flown, parameters)
     assert np.abs(torque[:, 2]).max() == pytest.approx(100.0)
 
 
 @pytest.mark.parametrize(
     ("key", "value", "words"),
     [
-        (("spacecraft", "inertia_kg_m2"), np.diag([1.0, 1.0, 3.0]).tolist(), "no body"),
-        (("spacecraft", "inertia_kg_m2"), np.diag([1.0, -1.0, 1.0]).tolist(), "positive definite"),
-        (("spacecraft", "inertia_kg_m2"), [[1, 0.1, 0], [0, 1, 0], [0, 0, 1]], "symmetric"),
-        (("manoeuvre", "initial_quaternion"), [0.0, 0.0, 0.0, 2.0], "unit quaternion"),
+        ("spacecraft.inertia_kg_m2", np.diag([1.0, 1.0, 3.0]).tolist(), "no body"),
+        ("spacecraft.inertia_kg_m2", np.diag([1.0, -1.0, 1.0]).tolist(), "positive definite"),
+        ("spacecraft.inertia_kg_m2", [[1, 0.1, 0], [0, 1, 0], [0, 0, 1]], "symmetric"),
+        ("manoeuvre.initial_quaternion", [0.0, 0.0, 0.0, 2.0], "unit quaternion"),
     ],
 )
-def test_what_a_type_cannot_refuse(section, key, value, words):
+def test_what_a_type_cannot_refuse(section, changed, key, value, words):
     """One line that names the key."""
-    wrong = copy.deepcopy(section)
-    wrong[key[0]][key[1]] = value
     with pytest.raises(InputError, match=words) as refusal:
-        check(wrong)
-    assert f"slew.{'.'.join(key)}" in str(refusal.value)
+        check(changed(section, key, value))
+    assert f"slew.{key}" in str(refusal.value)
     check(section)

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from smallsat.catalogue import untyped
 from smallsat.config import lookup
 from smallsat.errors import InputError
 from smallsat.evidence.printed import parse_printed
@@ -25,12 +24,8 @@ def bound_value(row: Mapping[str, str], binding: Mapping[str, Any], section: Par
     if "config" in binding:
         value: Any = _configured(binding["config"], {row["id"].partition("/")[0]: section})
     elif "derived" in binding:
-        study = row["id"].partition("/")[0]
-        value = resolve(binding["derived"], "bindings.yaml")(
-            section if study not in ("slew", "racing") else {study: untyped(section)}
-        )
+        value = resolve(binding["derived"], "bindings.yaml")(section)
     else:
-        study = row["id"].partition("/")[0]
         value = resolve(binding["constant"], "bindings.yaml")
     if "entry" in binding:
         value = value[binding["entry"]]

@@ -7,7 +7,6 @@ from typing import Generic
 
 import pandas as pd
 
-from smallsat.catalogue import untyped
 from smallsat.evidence.ledger import Ledger, read_artefacts
 from smallsat.quantities import Section
 from smallsat.results import read_table
@@ -33,11 +32,6 @@ class Grounds(Generic[Section]):
     results: Path
     ledger: Ledger
     captions: Mapping[str, str]
-
-    @property
-    def config(self):
-        """Transition: the plain form."""
-        return {type(self.section).__module__.split(".")[2]: untyped(self.section)}
 
     def table(self, name: str) -> pd.DataFrame:
         """A table of the results by its file's name; errors as from `read_table`."""

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from smallsat.catalogue import study_module, untyped
+from smallsat.catalogue import study_module
 from smallsat.errors import InputError
 from smallsat.quantities import Part
 from smallsat.strict_yaml import read_yaml
@@ -131,7 +131,7 @@ def drawn(run: NotebookRun, section: Part) -> NotebookRun:
     figures = {
         figure: what
         for figure, what in run.figures.items()
-        if module.is_drawn(untyped(section), run.notebook, what, run.parameters)
+        if module.is_drawn(section, run.notebook, what, run.parameters)
     }
     return replace(run, figures=figures)
 

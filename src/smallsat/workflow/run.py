@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from smallsat.catalogue import study_module, untyped
+from smallsat.catalogue import study_module
 from smallsat.config import Config, default_config, overlaid_config, run_folder
 
 
@@ -56,4 +56,4 @@ def check(config: Config) -> None:
     """
     for study, section in config:
         if module := study_module(study, "parameters"):
-            module.check(untyped(section))
+            module.check(section)

@@ -38,7 +38,6 @@ def main(arguments: argparse.Namespace) -> None:
 def run_step(study: str, name: str, step: Step[Any]) -> None:
     """Run a step with what it asks for of the section; its tables go into the study's results."""
     run: Callable[[Step[Any]], Tables] = import_module(f"smallsat.studies.{study}.steps.{name}").run
-    for kind in get_args(get_type_hints(run)["step"]):
-        step = replace(step, section=kind.model_validate(step.section))
-    for file, table in run(step).items():
+    (kind,) = get_args(get_type_hints(run)["step"])
+    for file, table in run(replace(step, section=kind.model_validate(step.section))).items():
         write_table(table, step.results / file)

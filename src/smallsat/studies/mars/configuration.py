@@ -40,7 +40,7 @@ class Orbits(Part):
 class Spacecraft(Part):
     """Principal moments in the body frame, and the attitude at time zero."""
 
-    inertia_kg_m2: Annotated[tuple[Positive, ...], Len(3, 3)]
+    inertia_kg_m2: Annotated[tuple[Positive, Positive, Positive], Len(3, 3)]
     initial_mrp: Vector
     initial_rate_deg_s: Vector
 

@@ -38,7 +38,7 @@ def _absolute(path: str) -> str:
     return path and str(Path(path).resolve())
 
 
-Ordered = Annotated[tuple[T, ...], AfterValidator(_ordered), Len(2, 2)]
+Ordered = Annotated[tuple[T, T], AfterValidator(_ordered), Len(2, 2)]
 Angle = Annotated[Number, Interval(ge=-180, le=180)]
 Panels = Annotated[Integer, Interval(ge=8, le=10000)]
 

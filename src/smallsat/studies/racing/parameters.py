@@ -1,13 +1,13 @@
-"""The configuration's ``racing`` section in SI units, and the checks that a schema cannot make."""
+"""The configuration in SI units, and the checks that no type can make."""
 
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from smallsat.config import Config
 from smallsat.dynamics.units import MINUTE
 from smallsat.errors import InputError
+from smallsat.studies.racing.configuration import Configuration, CourseRanges, Scenario
 from smallsat.studies.racing.methods.as_published import Settings
 from smallsat.studies.racing.model.course import COINCIDENT, Course, Ranges, check_course, generate
 from smallsat.studies.racing.model.course_file import read_course_file
@@ -53,141 +53,116 @@ class Parameters:
     pointing: float
     as_published: Settings
 
+    @classmethod
+    def from_section(cls, section: Configuration) -> "Parameters":
+        """Convert the section of the configuration; courses are generated or read here.
 
-def parameters(section: Config) -> Parameters:
-    """Parameters from the checked section; courses are generated or read here.
-
-    Raises
-    ------
-    InputError
-        Naming the file or key of a course that is none, or of a CubeSat that starts in its ring.
-    """
-    given, passage = section["as_published"], section["passage"]
-    ranges = ranges_of(section)
-    return Parameters(
-        mean_motion=2.0 * np.pi / (section["orbit_period_min"] * MINUTE),
-        ranges=ranges,
-        scatter=float(np.sqrt(start_variance({"racing": section}))),
-        races={name: _race(section, name, ranges) for name in SCENARIOS},
-        plane=passage["plane_m"],
-        pointing=float(np.radians(passage["pointing_deg"])),
-        as_published=Settings(
-            duration_multiple=given["duration_multiple"],
-            costate_bound=given["costate_bound"],
-            evaluations=given["evaluations"],
-            deadzone=given["deadzone"],
-            constraint_deadzone=given["constraint_deadzone"],
-            final_hamiltonian=given["final_hamiltonian"],
-            plane=passage["plane_m"],
-            panels=given["panels"],
-            first_penalty=given["first_weight"],
-        ),
-    )
+        Raises
+        ------
+        InputError
+            Naming the file or key of a course that is none, or of a CubeSat that starts in its
+            ring.
+        """
+        listing, passage = section.as_published, section.passage
+        ranges = ranges_of(section.course)
+        return cls(
+            mean_motion=2.0 * np.pi / (section.orbit_period_min * MINUTE),
+            ranges=ranges,
+            scatter=float(np.sqrt(start_variance(section))),
+            races={name: _race(section, name, ranges) for name in SCENARIOS},
+            plane=passage.plane_m,
+            pointing=float(np.radians(passage.pointing_deg)),
+            as_published=Settings(
+                duration_multiple=listing.duration_multiple,
+                costate_bound=listing.costate_bound,
+                evaluations=listing.evaluations,
+                deadzone=listing.deadzone,
+                constraint_deadzone=listing.constraint_deadzone,
+                final_hamiltonian=listing.final_hamiltonian,
+                plane=passage.plane_m,
+                panels=listing.panels,
+                first_penalty=listing.first_weight,
+            ),
+        )
 
 
-def ranges_of(section: Config) -> Ranges:
+def ranges_of(course: CourseRanges) -> Ranges:
     """Ranges of the generator, SI units and radians."""
-    course = section["course"]
     return Ranges(
-        semi_major=tuple(course["semi_major_m"]),
-        semi_minor=tuple(course["semi_minor_m"]),
-        distance=tuple(course["distance_m"]),
-        azimuth=tuple(np.radians(course["azimuth_deg"]).tolist()),
-        elevation=tuple(np.radians(course["elevation_deg"]).tolist()),
-        rings=tuple(course["rings"]),
+        semi_major=course.semi_major_m,
+        semi_minor=course.semi_minor_m,
+        distance=course.distance_m,
+        azimuth=tuple(np.radians(course.azimuth_deg).tolist()),
+        elevation=tuple(np.radians(course.elevation_deg).tolist()),
+        rings=course.rings,
     )
 
 
-def start_variance(config: Config) -> float:
+def start_variance(section: Configuration) -> float:
     """Variance of a start position in x or z, m^2, that reproduces Tables 1 and 3.
 
     The listing gives the start ring an axis of 250 and calls it three sigma; the draws say that the
     250 is the square, in m^2, of three standard deviations.
     """
-    section = config["racing"]
-    start, course = section["start"], section["course"]
-    return start["axis_multiple"] * course["semi_major_m"][1] / start["sigma_level"] ** 2
+    start = section.start
+    return start.axis_multiple * section.course.semi_major_m[1] / start.sigma_level**2
 
 
-def _race(section: Config, scenario: str, ranges: Ranges) -> Race:
-    given = section["scenarios"][scenario]
-    name = f"config key 'racing.scenarios.{scenario}'"
-    if given["course_file"]:
-        course = read_course_file(Path(given["course_file"]))
+def _race(section: Configuration, name: str, ranges: Ranges) -> Race:
+    scenario: Scenario = section.scenarios[name]
+    key = f"config key 'racing.scenarios.{name}"
+    if scenario.course_file:
+        course = read_course_file(Path(scenario.course_file))
     else:
-        course = generate(MatlabStream(given["seed"]), ranges)
-        check_course(course, name)
-    for key, values in given["cubesats"].items():
-        if np.linalg.norm(values["position_m"] - course.centres[0]) < COINCIDENT:
+        course = generate(MatlabStream(scenario.seed), ranges)
+        check_course(course, f"{key}'")
+    for craft, values in scenario.cubesats:
+        if np.linalg.norm(values.position_m - course.centres[0]) < COINCIDENT:
             raise InputError(
-                f"{name[:-1]}.cubesats.{key}.position_m': {values['position_m']} is the centre of "
+                f"{key}.cubesats.{craft}.position_m': {list(values.position_m)} is the centre of "
                 f"ring 1; a CubeSat starts elsewhere, move it"
             )
     return Race(
         course,
         tuple(
-            cubesat(key, values["thrust_m_s2"], values["position_m"], values["axial"])
-            for key, values in given["cubesats"].items()
+            cubesat(craft, values.thrust_m_s2, values.position_m, values.axial)
+            for craft, values in scenario.cubesats
         ),
     )
 
 
-def course_files(config: Config) -> list[str]:
+def course_files(section: Configuration) -> list[str]:
     """Course files that the parameters are read from."""
-    races = config["racing"]["scenarios"].values()
-    return sorted({race["course_file"] for race in races} - {""})
+    return sorted({race.course_file for _, race in section.scenarios} - {""})
 
 
-def check(section: Config) -> Config:
-    """Check what a schema cannot; paths of course files become absolute: jobs run elsewhere.
+def check(section: Configuration) -> None:
+    """Refuse what no type can: speeds that contradict one another, a course that is none.
 
     Raises
     ------
     InputError
         Naming the key, its value and what is allowed.
     """
-    for key, (low, high) in section["course"].items():
-        if low > high:
-            raise InputError(
-                f"config key 'racing.course.{key}': [{low:g}, {high:g}] is no range; "
-                f"the first must not exceed the second"
-            )
-    speeds = section["dynamic_programming"]
-    if speeds["least_speed"] >= speeds["largest_speed"]:
+    speeds = section.dynamic_programming
+    if speeds.least_speed >= speeds.largest_speed:
         raise InputError(
-            f"config key 'racing.dynamic_programming.least_speed': {speeds['least_speed']:g} is "
-            f"not allowed; must be less than largest_speed, {speeds['largest_speed']:g}"
+            f"config key 'racing.dynamic_programming.least_speed': {speeds.least_speed:g} is "
+            f"not allowed; must be less than largest_speed, {speeds.largest_speed:g}"
         )
-    for scenario in SCENARIOS:
-        given = section["scenarios"][scenario]
-        if given["course_file"] and not Path(given["course_file"]).is_file():
-            what = "is no file" if Path(given["course_file"]).exists() else "does not exist"
-            raise InputError(
-                f"config key 'racing.scenarios.{scenario}.course_file': "
-                f"'{given['course_file']}' {what}; give a CSV file's path from the folder "
-                f'in which snakemake is called, or "" for the course of the seed'
-            )
-    parameters(section)
-    scenarios = {
-        name: race
-        | {"course_file": str(Path(race["course_file"]).resolve()) if race["course_file"] else ""}
-        for name, race in section["scenarios"].items()
-    }
-    return section | {"scenarios": scenarios}
+    Parameters.from_section(section)
 
 
-def number_of_cubesats(config: Config) -> int:
+def number_of_cubesats(section: Configuration) -> int:
     """How many fly Scenario 1; as many fly Scenario 2."""
-    return len(config["racing"]["scenarios"]["scenario-1"]["cubesats"])
+    return len(dict(section.scenarios.scenario_1.cubesats))
 
 
-def rings_of_scenario_1(config: Config) -> int:
+def rings_of_scenario_1(section: Configuration) -> int:
     """Number of rings that the seed of Scenario 1 gives."""
-    section = config["racing"]
-    return _race(section, "scenario-1", ranges_of(section)).course.rings
+    return _race(section, SCENARIOS[0], ranges_of(section.course)).course.rings
 
 
-def rings_of_scenario_2(config: Config) -> int:
+def rings_of_scenario_2(section: Configuration) -> int:
     """Number of rings that the seed of Scenario 2 gives."""
-    section = config["racing"]
-    return _race(section, "scenario-2", ranges_of(section)).course.rings
+    return _race(section, SCENARIOS[1], ranges_of(section.course)).course.rings

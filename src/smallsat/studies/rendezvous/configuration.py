@@ -78,7 +78,7 @@ class Readings(Part):
     cone_angle: Literal["half", "full"]
     r_bar: Literal["above", "below"]
     plane_rule: Literal["shortest", "natural", "current"]
-    switches: Annotated[tuple[Switch, ...], Len(3, 3)]
+    switches: Annotated[tuple[Switch, Switch, Switch], Len(3, 3)]
     set_point_time: Literal["start", "horizon", "stage"]
     reference_moves: StrictBool
     delta_v: Literal["2-norm", "1-norm", "resultant", "plane and normal"]

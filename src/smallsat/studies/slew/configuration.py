@@ -18,7 +18,7 @@ from smallsat.quantities import (
     Vector,
 )
 
-Quaternion = Annotated[tuple[Number, ...], Len(4, 4)]
+Quaternion = Annotated[tuple[Number, Number, Number, Number], Len(4, 4)]
 Duration = Annotated[Number, Gt(0), Le(3600)]
 
 
@@ -60,7 +60,7 @@ class Spacecraft(Part):
     """The centre of pressure lies length / divisor off the centre."""
 
     mass_kg: Positive
-    inertia_kg_m2: Annotated[tuple[Vector, ...], Len(3, 3)]
+    inertia_kg_m2: Annotated[tuple[Vector, Vector, Vector], Len(3, 3)]
     size_m: Size
     panel_area_m2: PanelArea
     offset_divisor: Positive

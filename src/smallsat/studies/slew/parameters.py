@@ -1,14 +1,14 @@
-"""The configuration's ``slew`` section in SI units, and the checks that a schema cannot express."""
+"""The configuration in SI units, and the checks that no type can make."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from smallsat.config import Config
 from smallsat.dynamics.attitude.quaternions import error_quaternion, turn_angle
 from smallsat.dynamics.orbits.kepler_orbits import Elements, Gravity, state_of
 from smallsat.dynamics.units import KM
 from smallsat.errors import InputError
+from smallsat.studies.slew.configuration import Configuration, Spacecraft
 
 MILLI = 1e-3
 # Body rate at both ends of a manoeuvre, rad/s.
@@ -57,6 +57,32 @@ class Parameters:
     initial: np.ndarray
     targets: dict[str, np.ndarray]
 
+    @classmethod
+    def from_section(cls, section: Configuration) -> "Parameters":
+        """Convert the section of the configuration."""
+        gravity, orbit, wheels = section.gravity, section.orbit, section.wheels
+        manoeuvre = section.manoeuvre
+        angles = (
+            orbit.inclination_deg,
+            orbit.raan_deg,
+            orbit.argument_of_perigee_deg,
+            orbit.true_anomaly_deg,
+        )
+        return cls(
+            gravity=Gravity(gravity.mu_km3_s2 * KM**3, gravity.earth_radius_km * KM, gravity.j2),
+            orbit=Elements(
+                orbit.semi_major_axis_km * KM, orbit.eccentricity, *np.radians(angles).tolist()
+            ),
+            inertia=np.array(section.spacecraft.inertia_kg_m2),
+            panels=panels(section.spacecraft),
+            drag_coefficient=section.spacecraft.drag_coefficient,
+            torque=wheels.torque_mN_m * MILLI,
+            momentum=wheels.momentum_mN_m_s * MILLI,
+            duration=manoeuvre.duration_s,
+            initial=np.array(manoeuvre.initial_quaternion),
+            targets={case: np.array(manoeuvre[case].target_quaternion) for case in CASES},
+        )
+
     @property
     def state(self) -> tuple[np.ndarray, np.ndarray]:
         """Inertial position, m, and velocity, m/s, at the start."""
@@ -85,23 +111,22 @@ class Parameters:
         return names
 
 
-def panels(section: Config, offset: float | None = None, scale: float = 1.0) -> np.ndarray:
+def panels(craft: Spacecraft, offset: float | None = None, scale: float = 1.0) -> np.ndarray:
     """Table 5 as an array, shape (6, 7): area, outward normal, centre of pressure.
 
     Parameters
     ----------
-    section
-        The configuration's ``slew`` section.
+    craft
+        The spacecraft.
     offset
         How far the long panels' centre of pressure lies off the centre, m; else as in Table 5.
     scale
         Factor of the dimensions, for the printed ones.
     """
-    craft = section["spacecraft"]
-    size = craft["size_m"]
-    length, b, h = (scale * size[name] for name in ("length", "breadth", "height"))
-    shift = length / craft["offset_divisor"] if offset is None else offset
-    side, end = craft["panel_area_m2"]["side"], craft["panel_area_m2"]["end"]
+    size = craft.size_m
+    length, b, h = scale * size.length, scale * size.breadth, scale * size.height
+    shift = length / craft.offset_divisor if offset is None else offset
+    side, end = craft.panel_area_m2.side, craft.panel_area_m2.end
     return np.array(
         [
             [side, 1, 0, 0, b / 2, -shift, 0],
@@ -114,53 +139,64 @@ def panels(section: Config, offset: float | None = None, scale: float = 1.0) -> 
     )
 
 
-def parameters(section: Config) -> Parameters:
-    """Convert the ``slew`` section of the configuration."""
-    gravity, orbit, wheels = section["gravity"], section["orbit"], section["wheels"]
-    manoeuvre = section["manoeuvre"]
-    angles = [
-        orbit[f"{name}_deg"]
-        for name in ("inclination", "raan", "argument_of_perigee", "true_anomaly")
-    ]
-    return Parameters(
-        gravity=Gravity(
-            gravity["mu_km3_s2"] * KM**3, gravity["earth_radius_km"] * KM, gravity["j2"]
-        ),
-        orbit=Elements(
-            orbit["semi_major_axis_km"] * KM, orbit["eccentricity"], *np.radians(angles).tolist()
-        ),
-        inertia=np.array(section["spacecraft"]["inertia_kg_m2"], dtype=float),
-        panels=panels(section),
-        drag_coefficient=float(section["spacecraft"]["drag_coefficient"]),
-        torque=wheels["torque_mN_m"] * MILLI,
-        momentum=wheels["momentum_mN_m_s"] * MILLI,
-        duration=float(manoeuvre["duration_s"]),
-        initial=np.array(manoeuvre["initial_quaternion"], dtype=float),
-        targets={
-            case: np.array(manoeuvre[case]["target_quaternion"], dtype=float) for case in CASES
-        },
-    )
-
-
-def quarter_angle_deg(config: Config) -> float:
+def quarter_angle_deg(section: Configuration) -> float:
     """Angle of the smaller of the document's two turns, deg: it follows from the quaternions."""
-    return parameters(config["slew"]).angle_deg("quarter")
+    return Parameters.from_section(section).angle_deg("quarter")
 
 
-def half_angle_deg(config: Config) -> float:
+def half_angle_deg(section: Configuration) -> float:
     """Angle of the larger of the document's two turns, deg: it follows from the quaternions."""
-    return parameters(config["slew"]).angle_deg("half")
+    return Parameters.from_section(section).angle_deg("half")
 
 
-def check(section: Config) -> Config:
-    """Refuse what the schema cannot: no body, quaternion, turn or orbit, and what contradicts.
+def check(section: Configuration) -> None:
+    """Refuse what no type can: no body, quaternion, turn or orbit, and what contradicts.
 
     Raises
     ------
     InputError
         Naming the key, its value and what is allowed.
     """
-    tensor = np.array(section["spacecraft"]["inertia_kg_m2"], dtype=float)
+    _check_body(np.array(section.spacecraft.inertia_kg_m2))
+    manoeuvre = section.manoeuvre
+    initial = manoeuvre.initial_quaternion
+    for name, value in (
+        ("initial_quaternion", initial),
+        ("quarter.target_quaternion", manoeuvre.quarter.target_quaternion),
+        ("half.target_quaternion", manoeuvre.half.target_quaternion),
+    ):
+        length = float(np.linalg.norm(value))
+        if abs(length - 1.0) > UNIT:
+            raise InputError(
+                f"config key 'slew.manoeuvre.{name}': {list(value)} has the length {length:g}; "
+                f"must be a unit quaternion, scalar last"
+            )
+    parameters = Parameters.from_section(section)
+    for case in CASES:
+        if np.radians(parameters.angle_deg(case)) < NO_TURN:
+            raise InputError(
+                f"config key 'slew.manoeuvre.{case}.target_quaternion': "
+                f"{list(manoeuvre[case].target_quaternion)} is the initial attitude; must differ "
+                f"from initial_quaternion {list(initial)}"
+            )
+    perigee = parameters.orbit.semi_major_axis * (1.0 - parameters.orbit.eccentricity)
+    if perigee <= parameters.gravity.radius:
+        raise InputError(
+            f"config key 'slew.orbit.eccentricity': {section.orbit.eccentricity:g} puts the "
+            f"perigee at {perigee / KM:g} km from the Earth's centre; must be more than "
+            f"earth_radius_km {section.gravity.earth_radius_km:g}"
+        )
+    _check_faces(section.spacecraft)
+    _check_times(section)
+    factors = section.environment.density_factors
+    if 1.0 not in factors:
+        raise InputError(
+            f"config key 'slew.environment.density_factors': {list(factors)} lacks the factor 1, "
+            f"which the curves are drawn for; add it"
+        )
+
+
+def _check_body(tensor: np.ndarray) -> None:
     key = "config key 'slew.spacecraft.inertia_kg_m2'"
     if not np.array_equal(tensor, tensor.T):
         raise InputError(f"{key}: {tensor.tolist()} is not allowed; must be symmetric")
@@ -174,54 +210,17 @@ def check(section: Config) -> Config:
             f"{key}: principal moments {', '.join(f'{m:g}' for m in moments)} are of no body; "
             f"none may exceed the sum of the other two"
         )
-    manoeuvre = section["manoeuvre"]
-    for name, value in (
-        ("initial_quaternion", manoeuvre["initial_quaternion"]),
-        ("quarter.target_quaternion", manoeuvre["quarter"]["target_quaternion"]),
-        ("half.target_quaternion", manoeuvre["half"]["target_quaternion"]),
-    ):
-        length = float(np.linalg.norm(np.array(value, dtype=float)))
-        if abs(length - 1.0) > UNIT:
-            raise InputError(
-                f"config key 'slew.manoeuvre.{name}': {value} has the length {length:g}; "
-                f"must be a unit quaternion, scalar last"
-            )
-    given = parameters(section)
-    for case in CASES:
-        if np.radians(given.angle_deg(case)) < NO_TURN:
-            raise InputError(
-                f"config key 'slew.manoeuvre.{case}.target_quaternion': "
-                f"{manoeuvre[case]['target_quaternion']} is the initial attitude; must differ from "
-                f"initial_quaternion {manoeuvre['initial_quaternion']}"
-            )
-    perigee = given.orbit.semi_major_axis * (1.0 - given.orbit.eccentricity)
-    if perigee <= given.gravity.radius:
-        raise InputError(
-            f"config key 'slew.orbit.eccentricity': {given.orbit.eccentricity:g} puts the perigee "
-            f"at {perigee / KM:g} km from the Earth's centre; must be more than earth_radius_km "
-            f"{given.gravity.radius / KM:g}"
-        )
-    _check_faces(section["spacecraft"])
-    _check_times(section)
-    factors = section["environment"]["density_factors"]
-    if 1.0 not in factors:
-        raise InputError(
-            f"config key 'slew.environment.density_factors': {factors} lacks the factor 1, which "
-            f"the curves are drawn for; add it"
-        )
-    return section
 
 
-def _check_faces(craft: Config) -> None:
+def _check_faces(craft: Spacecraft) -> None:
     """Table 5 calls four faces alike, so that breadth and height must agree as well."""
-    size = craft["size_m"]
     for name, first, second in (
         ("side", "length", "breadth"),
         ("side", "length", "height"),
         ("end", "breadth", "height"),
     ):
-        area = craft["panel_area_m2"][name]
-        face = size[first] * size[second]
+        area = craft.panel_area_m2[name]
+        face = craft.size_m[first] * craft.size_m[second]
         if abs(area / face - 1.0) > SAME:
             raise InputError(
                 f"config key 'slew.spacecraft.panel_area_m2.{name}': {area:g} is not {first} times "
@@ -229,16 +228,14 @@ def _check_faces(craft: Config) -> None:
             )
 
 
-def _check_times(section: Config) -> None:
-    duration = section["manoeuvre"]["duration_s"]
-    shortest = 1.0 / section["resampling_hz"]
-    for key, step in (
-        ("onboard.step_s", section["onboard"]["step_s"]),
-        ("numerics.step_s", section["numerics"]["step_s"]),
-        ("resampling_hz", shortest),
+def _check_times(section: Configuration) -> None:
+    duration = section.manoeuvre.duration_s
+    for key, value, step in (
+        ("onboard.step_s", section.onboard.step_s, section.onboard.step_s),
+        ("numerics.step_s", section.numerics.step_s, section.numerics.step_s),
+        ("resampling_hz", section.resampling_hz, 1.0 / section.resampling_hz),
     ):
         if step > duration:
-            value = section["resampling_hz"] if key == "resampling_hz" else step
             raise InputError(
                 f"config key 'slew.{key}': {value:g} makes steps longer than "
                 f"slew.manoeuvre.duration_s {duration:g}; must fit into it"

@@ -5,12 +5,13 @@ import pandas as pd
 
 from smallsat.evidence.claims import Judgement, judged
 from smallsat.evidence.grounds import Grounds
+from smallsat.studies.racing.configuration import Configuration
 from smallsat.studies.racing.evidence.observations import MILLI
 from smallsat.studies.racing.evidence.scores import CUBESATS, printed_scores
 from smallsat.studies.racing.methods.races import ANYWHERE, AS_PUBLISHED, GREEDY, INDIRECT, WHOLE
 from smallsat.studies.racing.methods.recovery import start_positions
 from smallsat.studies.racing.model.cubesat import CubeSat
-from smallsat.studies.racing.parameters import Parameters, parameters
+from smallsat.studies.racing.parameters import Parameters
 
 CENTRED = 1e-6  # m
 AGREES = 0.05  # s
@@ -47,9 +48,9 @@ def _meshes(grounds: Grounds) -> pd.DataFrame:
     return table[table["intervals"] == table["intervals"].min()]
 
 
-def _axial(given: Parameters) -> CubeSat:
+def _axial(parameters: Parameters) -> CubeSat:
     """Mo of the first race, where its thrusters are axial; else a `LookupError`."""
-    mo = next(c for c in given.races["scenario-1"].cubesats if c.name == "Mo")
+    mo = next(c for c in parameters.races["scenario-1"].cubesats if c.name == "Mo")
     if not mo.axis_thrust:
         raise LookupError("Mo may thrust in any direction")
     return mo
@@ -93,11 +94,11 @@ def mo_can_pass(grounds: Grounds) -> Judgement:
     )
 
 
-def mo_slower_than_meeny(grounds: Grounds) -> Judgement:
+def mo_slower_than_meeny(grounds: Grounds[Configuration]) -> Judgement:
     """The optimal times of Mo and Meeny are compared."""
     races = _all_races(grounds, WHOLE, "scenario-1")["time_s"]
-    given = parameters(grounds.config["racing"])
-    mo = next(c for c in given.races["scenario-1"].cubesats if c.name == "Mo")
+    parameters = Parameters.from_section(grounds.section)
+    mo = next(c for c in parameters.races["scenario-1"].cubesats if c.name == "Mo")
     return judged(
         races["Mo"] > races["Meeny"],
         f"optimally too: {races['Mo']:.1f} against {races['Meeny']:.1f} s. A sphere inside Mo's "
@@ -162,9 +163,9 @@ def adjoints_jump(grounds: Grounds) -> Judgement:
     )
 
 
-def not_smooth(grounds: Grounds) -> Judgement:
+def not_smooth(grounds: Grounds[Configuration]) -> Judgement:
     """The problem is looked at where it has a kink or a jump: a miss of zero, and Mo's thrust."""
-    mo = _axial(parameters(grounds.config["racing"]))
+    mo = _axial(Parameters.from_section(grounds.section))
     jump = mo.thrust - float(np.linalg.norm(mo.axis_thrust[:2]))
     worst = float(_all_races(grounds, WHOLE, "scenario-1")["accuracy_m"].max())
     return judged(
@@ -202,9 +203,9 @@ def _primer_at_rings(grounds: Grounds, stem: str, solution: str) -> float:
     return float(np.median(np.abs(np.sum(last * normals, axis=1)) / largest))
 
 
-def guess_is_ten_times_that(grounds: Grounds) -> Judgement:
+def guess_is_ten_times_that(grounds: Grounds[Configuration]) -> Judgement:
     """Line 66 of Listing C.C guesses a multiple of the time that the text names."""
-    multiple = grounds.config["racing"]["as_published"]["duration_multiple"]
+    multiple = grounds.section.as_published.duration_multiple
     return judged(
         multiple == 1.0,
         f"the listing guesses {multiple:g} times that time; and the adjoints, which the text "
@@ -303,10 +304,10 @@ def cost_is_time_plus_accuracy(grounds: Grounds) -> Judgement:
     )
 
 
-def printed_runs_missed(grounds: Grounds) -> Judgement:
+def printed_runs_missed(grounds: Grounds[Configuration]) -> Judgement:
     """The sum of the smaller axes is the most that misses can add up to without a ring missed."""
-    given = parameters(grounds.config["racing"])
-    limits = {name: float(race.course.sizes.sum()) for name, race in given.races.items()}
+    parameters = Parameters.from_section(grounds.section)
+    limits = {name: float(race.course.sizes.sum()) for name, race in parameters.races.items()}
     missed = [
         f"{row['cubesat']} {row['accuracy_m']:.1f} m (Scenario {row['scenario'][-1]})"
         for row in printed_scores(grounds.ledger).to_dict("records")
@@ -320,12 +321,12 @@ def printed_runs_missed(grounds: Grounds) -> Judgement:
     )
 
 
-def scenario_2_recovered(grounds: Grounds) -> Judgement:
+def scenario_2_recovered(grounds: Grounds[Configuration]) -> Judgement:
     """The start positions of the seed, and of every other day, are compared with Table 3."""
-    given = parameters(grounds.config["racing"])
-    seed = grounds.config["racing"]["scenarios"]["scenario-2"]["seed"]
-    race = given.races["scenario-2"]
-    rings, places = start_positions(given, seed, len(race.cubesats))
+    parameters = Parameters.from_section(grounds.section)
+    seed = grounds.section.scenarios.scenario_2.seed
+    race = parameters.races["scenario-2"]
+    rings, places = start_positions(parameters, seed, len(race.cubesats))
     printed = np.array([cubesat.position for cubesat in race.cubesats])
     error = np.abs(places - printed)[:, [0, 2]]
     days = grounds.table("days-as-seeds.csv")

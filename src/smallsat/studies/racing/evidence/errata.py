@@ -6,10 +6,10 @@ import numpy as np
 from scipy.linalg import expm
 from scipy.stats import chi2
 
-from smallsat.config import Config
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
 from smallsat.evidence.errata import Proof
 from smallsat.evidence.grounds import Grounds
+from smallsat.studies.racing.configuration import Configuration
 from smallsat.studies.racing.methods import as_published
 from smallsat.studies.racing.methods.flight import propagate_segment
 from smallsat.studies.racing.methods.races import INDIRECT
@@ -22,7 +22,7 @@ from smallsat.studies.racing.model.shooting import (
     costate_matrix,
     thrust_components,
 )
-from smallsat.studies.racing.parameters import Parameters, parameters
+from smallsat.studies.racing.parameters import SCENARIOS, Parameters
 
 # Places of one CubeSat at the start of each race.
 PLACES = {
@@ -39,16 +39,18 @@ RANK = 1e-5
 FINE = 64
 
 
-def _seeds(config: Config) -> dict[str, int]:
-    return {name: values["seed"] for name, values in config["racing"]["scenarios"].items()}
+def _seeds(section: Configuration) -> dict[str, int]:
+    return {name: section.scenarios[name].seed for name in SCENARIOS}
 
 
-def _matched(grounds: Grounds, given: Parameters, variance: float) -> tuple[int, int, float]:
+def _matched(
+    grounds: Grounds[Configuration], parameters: Parameters, variance: float
+) -> tuple[int, int, float]:
     """How many x and z a variance gives to the digit, of how many, and the largest error."""
-    changed = replace(given, scatter=float(np.sqrt(variance)))
+    changed = replace(parameters, scatter=float(np.sqrt(variance)))
     errors = []
-    for scenario, race in given.races.items():
-        _, places = start_positions(changed, _seeds(grounds.config)[scenario], len(race.cubesats))
+    for scenario, race in parameters.races.items():
+        _, places = start_positions(changed, _seeds(grounds.section)[scenario], len(race.cubesats))
         printed = np.array([cubesat.position for cubesat in race.cubesats])
         errors.append(np.abs(places - printed)[:, [0, 2]])
     every = np.concatenate(errors).ravel()
@@ -56,24 +58,24 @@ def _matched(grounds: Grounds, given: Parameters, variance: float) -> tuple[int,
     return int((every <= half_unit).sum()), len(every), float(every.max())
 
 
-def scatter_probability(given: Parameters, variance: float) -> float:
+def scatter_probability(parameters: Parameters, variance: float) -> float:
     """Two-sided probability of the printed scatter around the known start of Scenario 1."""
-    race = given.races["scenario-1"]
+    race = parameters.races["scenario-1"]
     offsets = np.array([c.position - race.course.start for c in race.cubesats])[:, [0, 2]]
     total = float(np.sum(offsets**2)) / variance
     below = float(chi2.cdf(total, offsets.size))
     return 2.0 * min(below, 1.0 - below)
 
 
-def start_covariance(grounds: Grounds) -> Proof:
+def start_covariance(grounds: Grounds[Configuration]) -> Proof:
     """250 m^2: the draws of the stream against the printed positions, and their scatter."""
-    given = parameters(grounds.config["racing"])
-    right = given.scatter**2
+    parameters = Parameters.from_section(grounds.section)
+    right = parameters.scatter**2
     name = "section-i/cubesat-initial-position-covariance-diag/all-cubesats/x"
     printed = grounds.ledger.value(name).value
-    fits, of, error = _matched(grounds, given, right)
-    misfits, _, wrong = _matched(grounds, given, printed)
-    probability = scatter_probability(given, printed)
+    fits, of, error = _matched(grounds, parameters, right)
+    misfits, _, wrong = _matched(grounds, parameters, printed)
+    probability = scatter_probability(parameters, printed)
     return Proof(
         fits >= of - 1 and misfits < of // 2 and probability < PROBABLE,
         f"{misfits} of {of} coordinates, off by up to {wrong:.1f} m",
@@ -82,20 +84,20 @@ def start_covariance(grounds: Grounds) -> Proof:
         f"{of} printed x and z to the digit with a variance of {right:.2f} m^2, and {misfits} "
         f"with {printed:g} m^2; without the streams, the scatter of Table 1 around the known "
         f"start has a probability of {probability:.2g} under the printed variance and "
-        f"{scatter_probability(given, right):.2g} under the other",
+        f"{scatter_probability(parameters, right):.2g} under the other",
         correct=right,
     )
 
 
-def start_ring_comment(grounds: Grounds) -> Proof:
+def start_ring_comment(grounds: Grounds[Configuration]) -> Proof:
     """The same draws as for the covariance are scaled by the comment's multiple of 5."""
-    given = parameters(grounds.config["racing"])
-    used = grounds.config["racing"]["start"]["axis_multiple"]
-    right = given.scatter**2
+    parameters = Parameters.from_section(grounds.section)
+    used = grounds.section.start.axis_multiple
+    right = parameters.scatter**2
     name = "listing-c-b-finalprojectmain-m/startring-comment-multiple-of-largest-axis"
     printed = grounds.ledger.value(name).value
-    fits, of, _ = _matched(grounds, given, right)
-    misfits, _, wrong = _matched(grounds, given, right * printed / used)
+    fits, of, _ = _matched(grounds, parameters, right)
+    misfits, _, wrong = _matched(grounds, parameters, right * printed / used)
     return Proof(
         fits >= of - 1 and misfits < of // 2,
         f"{misfits} of {of} coordinates, off by up to {wrong:.1f} m",
@@ -106,13 +108,13 @@ def start_ring_comment(grounds: Grounds) -> Proof:
     )
 
 
-def angle_steps(grounds: Grounds) -> Proof:
+def angle_steps(grounds: Grounds[Configuration]) -> Proof:
     """Whole ranges of the angles: the start of both courses along the track."""
-    given = parameters(grounds.config["racing"])
+    parameters = Parameters.from_section(grounds.section)
     texts, fits, misfits = [], [], []
-    for scenario, seed in _seeds(grounds.config).items():
-        halved = generate(MatlabStream(seed), given.ranges).start[1]
-        whole = generate(MatlabStream(seed), given.ranges, halved=False).start[1]
+    for scenario, seed in _seeds(grounds.section).items():
+        halved = generate(MatlabStream(seed), parameters.ranges).start[1]
+        whole = generate(MatlabStream(seed), parameters.ranges, halved=False).start[1]
         y = f"{PLACES[scenario]}/y"
         printed = grounds.ledger.value(y)
         fits.append(printed.matches(halved))
@@ -128,30 +130,30 @@ def angle_steps(grounds: Grounds) -> Proof:
     )
 
 
-def hamiltonian_drift(config: Config, transposed: bool) -> tuple[float, float]:
+def hamiltonian_drift(section: Configuration, transposed: bool) -> tuple[float, float]:
     """Hamiltonian at both ends of a flight from Meeny's start with the listing's guess."""
-    given = parameters(config["racing"])
-    race = given.races["scenario-1"]
+    parameters = Parameters.from_section(section)
+    race = parameters.races["scenario-1"]
     cubesat = next(c for c in race.cubesats if c.name == "Meeny")
     state = np.r_[cubesat.position, np.zeros(3)]
     target = as_published.Target(
         race.course.centres[0], race.course.normals[0], 0.0, race.course.start, False
     )
-    guess, _ = as_published.guess(state, target, cubesat.thrust, given.as_published)
+    guess, _ = as_published.guess(state, target, cubesat.thrust, parameters.as_published)
     _, flown = propagate_segment(
-        state, guess[:6], SECONDS, cubesat, given.mean_motion, 1.0, 1e-12, transposed
+        state, guess[:6], SECONDS, cubesat, parameters.mean_motion, 1.0, 1e-12, transposed
     )
-    a = rate_matrix(given.mean_motion)
+    a = rate_matrix(parameters.mean_motion)
     first, last = (
         float(y[6:] @ (a @ y[:6]) - cubesat.thrust * np.linalg.norm(y[9:])) for y in flown[[0, -1]]
     )
     return first, last
 
 
-def costate_transpose(grounds: Grounds) -> Proof:
+def costate_transpose(grounds: Grounds[Configuration]) -> Proof:
     """Listing C.F: the Hamiltonian of a flight with either matrix."""
-    first, last = hamiltonian_drift(grounds.config, transposed=False)
-    right_first, right_last = hamiltonian_drift(grounds.config, transposed=True)
+    first, last = hamiltonian_drift(grounds.section, transposed=False)
+    right_first, right_last = hamiltonian_drift(grounds.section, transposed=True)
     drift, rest = abs(last - first), abs(right_last - right_first)
     return Proof(
         drift > DRIFTING * abs(first) and rest < CONSTANT * abs(right_first),
@@ -178,9 +180,9 @@ def printed_adjoint_transition(n: float, t: float) -> np.ndarray:
     )
 
 
-def adjoint_transition(grounds: Grounds) -> Proof:
+def adjoint_transition(grounds: Grounds[Configuration]) -> Proof:
     """Eq. 18 is compared with the matrix exponential of Eq. 17, entry by entry."""
-    n, t = parameters(grounds.config["racing"]).mean_motion, 10.0 * SECONDS
+    n, t = Parameters.from_section(grounds.section).mean_motion, 10.0 * SECONDS
     exact = expm(costate_matrix(n) * t)
     printed = printed_adjoint_transition(n, t)
     # Rows and columns in units in which a time is measured by the orbit.
@@ -199,9 +201,9 @@ def adjoint_transition(grounds: Grounds) -> Proof:
     )
 
 
-def ring_size(grounds: Grounds) -> Proof:
+def ring_size(grounds: Grounds[Configuration]) -> Proof:
     """The least entry of S is taken for every ring of Scenario 1."""
-    course = parameters(grounds.config["racing"]).races["scenario-1"].course
+    course = Parameters.from_section(grounds.section).races["scenario-1"].course
     least = [float(np.min(np.diag(axes))) for axes in course.semi_axes]
     return Proof(
         max(least) == 0.0 and course.sizes.min() > 0.0,
@@ -214,14 +216,14 @@ def ring_size(grounds: Grounds) -> Proof:
     )
 
 
-def axial_thrust(grounds: Grounds) -> Proof:
+def axial_thrust(grounds: Grounds[Configuration]) -> Proof:
     """Eq. 24, the listings' law and the minimiser are taken at one primer vector."""
-    given = parameters(grounds.config["racing"])
-    axial = [c for c in given.races["scenario-1"].cubesats if c.axis_thrust]
+    parameters = Parameters.from_section(grounds.section)
+    axial = [c for c in parameters.races["scenario-1"].cubesats if c.axis_thrust]
     if not axial:
         raise LookupError("no CubeSat has axial thrusters")
     mo = axial[0]
-    limits, deadzone = np.array(mo.axis_thrust), given.as_published.deadzone
+    limits, deadzone = np.array(mo.axis_thrust), parameters.as_published.deadzone
     equation = np.where(np.abs(PRIMER) > deadzone, -limits * np.sign(PRIMER), 0.0)
     listing = np.array(thrust_components(PRIMER, NORM_OF_AXES, limits, deadzone))
     best = np.array(thrust_components(PRIMER, AXIS_BY_AXIS, limits, deadzone))
@@ -244,7 +246,7 @@ def _vector(values: np.ndarray) -> str:
     return "(" + ", ".join(f"{value:.4g}" for value in values) + ")"
 
 
-def equality_ranks(grounds: Grounds, transposed: bool) -> tuple[int, int, int]:
+def equality_ranks(grounds: Grounds[Configuration], transposed: bool) -> tuple[int, int, int]:
     """Equalities that move at a converged segment, their rank, and that of pointing.
 
     The segment is Meeny's first by the indirect method, where all conditions hold.
@@ -254,20 +256,20 @@ def equality_ranks(grounds: Grounds, transposed: bool) -> tuple[int, int, int]:
     if not row["converged"]:
         raise LookupError("no converged segment")
     z = np.r_[row[["px", "py", "pz", "pvx", "pvy", "pvz"]].to_numpy(dtype=float), row["duration_s"]]
-    return ranks_at(parameters(grounds.config["racing"]), z, transposed)
+    return ranks_at(Parameters.from_section(grounds.section), z, transposed)
 
 
-def ranks_at(given: Parameters, z: np.ndarray, transposed: bool) -> tuple[int, int, int]:
+def ranks_at(parameters: Parameters, z: np.ndarray, transposed: bool) -> tuple[int, int, int]:
     """Ranks of the equalities' Jacobian on Meeny's first segment, at any of its unknowns (7,)."""
-    race = given.races["scenario-1"]
+    race = parameters.races["scenario-1"]
     cubesat = next(c for c in race.cubesats if c.name == "Meeny")
     law, limits = as_published.law_of(cubesat)
-    settings = given.as_published
+    settings = parameters.as_published
     jacobian = np.empty((as_published.EQUALITIES, len(z)))
     fixed = (
         np.r_[cubesat.position, np.zeros(3)],
-        rate_matrix(given.mean_motion),
-        costate_matrix(given.mean_motion, transposed),
+        rate_matrix(parameters.mean_motion),
+        costate_matrix(parameters.mean_motion, transposed),
         law,
         limits,
         (settings.deadzone, settings.constraint_deadzone),

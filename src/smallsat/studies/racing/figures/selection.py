@@ -3,12 +3,14 @@
 from collections.abc import Mapping
 from typing import Any
 
-from smallsat.config import Config
-from smallsat.studies.racing.parameters import parameters as racing_parameters
+from smallsat.studies.racing.configuration import Configuration
+from smallsat.studies.racing.parameters import Parameters
 
 
-def is_drawn(section: Config, notebook: str, what: Any, parameters: Mapping[str, Any]) -> bool:
+def is_drawn(
+    section: Configuration, notebook: str, what: Any, parameters: Mapping[str, Any]
+) -> bool:
     """Whether the courses have what a figure shows."""
     if notebook != "segments":
         return True
-    return what <= racing_parameters(section).races[parameters["scenario"]].course.rings
+    return what <= Parameters.from_section(section).races[parameters["scenario"]].course.rings

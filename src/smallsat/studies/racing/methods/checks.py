@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.dynamics.orbits.clohessy_wiltshire import costate_transition, rate_matrix
 from smallsat.evidence.not_converged import NotConverged
+from smallsat.studies.racing.configuration import Configuration
 from smallsat.studies.racing.methods import attempts
 from smallsat.studies.racing.methods.course_program import Arcs, Leg, Plan, length_unit
 from smallsat.studies.racing.methods.flight import propagate_plan, residual
@@ -36,29 +36,29 @@ MESH += ["primer_angle_largest_deg", "sign_share"]
 Checked = tuple[pd.DataFrame, list[NotConverged]]
 
 
-def mesh_refinement(given: Parameters, section: Config, scenario: str) -> Checked:
+def mesh_refinement(parameters: Parameters, section: Configuration, scenario: str) -> Checked:
     """Whole-course optimum of every CubeSat on meshes that each contain the last one's plans."""
-    numerics, race = section["optimum"], given.races[scenario]
+    numerics, race = section.optimum, parameters.races[scenario]
     rows, missing = [], []
     for cubesat in race.cubesats:
         leg, coarser = whole_leg(race.course, cubesat), None
-        for intervals in (numerics["intervals"], *numerics["finer_intervals"]):
+        for intervals in (numerics.intervals, *numerics.finer_intervals):
             solver = program(race.course.rings, "state", intervals)
-            plan = solver.refine(leg, cubesat, given.mean_motion, coarser) if coarser else None
+            plan = solver.refine(leg, cubesat, parameters.mean_motion, coarser) if coarser else None
             if plan is None or not plan.converged:
-                plan = attempts.solve(solver, leg, cubesat, given.mean_motion)
+                plan = attempts.solve(solver, leg, cubesat, parameters.mean_motion)
             row = {"scenario": scenario, "cubesat": cubesat.name, "intervals": intervals}
             if plan.converged:
                 coarser = plan
-                flown = propagate_plan(plan, given.mean_motion)
+                flown = propagate_plan(plan, parameters.mean_motion)
                 row |= {
                     "time_s": plan.time,
                     "converged": True,
                     "residual": residual(plan, flown, cubesat, race.course),
-                } | primer_check(plan, cubesat, given.mean_motion)
+                } | primer_check(plan, cubesat, parameters.mean_motion)
             else:
                 case = f"{scenario}, {cubesat.name}, whole course, {intervals} pieces a segment"
-                missing.append(attempts.not_converged(case, plan, cubesat, given.mean_motion))
+                missing.append(attempts.not_converged(case, plan, cubesat, parameters.mean_motion))
                 row |= {"time_s": np.nan, "converged": False}
             rows.append(row)
     return pd.DataFrame(rows, columns=_columns(rows, MESH)), missing
@@ -122,20 +122,20 @@ def primer_check(plan: Plan, cubesat: CubeSat, mean_motion: float) -> dict[str, 
     }
 
 
-def other_starts(given: Parameters, section: Config, scenario: str) -> pd.DataFrame:
+def other_starts(parameters: Parameters, section: Configuration, scenario: str) -> pd.DataFrame:
     """The whole-course optimum of every CubeSat from random first guesses."""
-    numerics, race = section["optimum"], given.races[scenario]
+    numerics, race = section.optimum, parameters.races[scenario]
     rows = []
     for place, cubesat in enumerate(race.cubesats):
-        draws = np.random.default_rng([numerics["seed"], place])
-        solver = program(race.course.rings, "state", numerics["intervals"])
-        for start in range(numerics["starts"]):
+        draws = np.random.default_rng([numerics.seed, place])
+        solver = program(race.course.rings, "state", numerics.intervals)
+        for start in range(numerics.starts):
             arcs = Arcs(
                 draws.uniform(*SPEEDS, race.course.rings),
                 draws.uniform(*TIMES, race.course.rings + 1),
             )
             leg = whole_leg(race.course, cubesat)
-            plan = solver.solve(leg, cubesat, given.mean_motion, arcs=arcs)
+            plan = solver.solve(leg, cubesat, parameters.mean_motion, arcs=arcs)
             rows.append(
                 {
                     "scenario": scenario,
@@ -149,7 +149,7 @@ def other_starts(given: Parameters, section: Config, scenario: str) -> pd.DataFr
     return pd.DataFrame(rows)
 
 
-def dynamic_programming(given: Parameters, section: Config, scenario: str) -> Checked:
+def dynamic_programming(parameters: Parameters, section: Configuration, scenario: str) -> Checked:
     """Least time over the ring speeds, the only free part of a state at a ring.
 
     A table of least times from speed to speed for every segment, first on a grid of speeds, then on
@@ -157,15 +157,15 @@ def dynamic_programming(given: Parameters, section: Config, scenario: str) -> Ch
     on the mesh of the whole-course program, which it must agree with. The grid's range goes with
     the thrust and the size of the course; where the best path touches its end, it is doubled.
     """
-    numbers, race = section["dynamic_programming"], given.races[scenario]
-    cubesat = next(c for c in race.cubesats if c.name == numbers["cubesat"])
+    numbers, race = section.dynamic_programming, parameters.races[scenario]
+    cubesat = next(c for c in race.cubesats if c.name == numbers.cubesat)
     course = race.course
     length = length_unit(np.vstack([cubesat.position, course.centres, course.end]))
     unit = float(np.sqrt(length * cubesat.thrust))
-    grid = unit * np.linspace(numbers["least_speed"], numbers["largest_speed"], numbers["speeds"])
+    grid = unit * np.linspace(numbers.least_speed, numbers.largest_speed, numbers.speeds)
     known: dict[tuple[int, float, float], float] = {}
     for _ in range(1 + WIDENED):
-        levels, fastest = _refined(given, section, course, cubesat, grid, known)
+        levels, fastest = _refined(parameters, section, course, cubesat, grid, known)
         if not fastest:
             break
         grid = np.linspace(grid[0], 2.0 * grid[-1], len(grid))
@@ -183,8 +183,8 @@ def dynamic_programming(given: Parameters, section: Config, scenario: str) -> Ch
 
 
 def _refined(
-    given: Parameters,
-    section: Config,
+    parameters: Parameters,
+    section: Configuration,
     course: Course,
     cubesat: CubeSat,
     grid: np.ndarray,
@@ -194,13 +194,13 @@ def _refined(
 
     Also whether the best path goes as fast as all of them let it: then the range was too small.
     """
-    numbers = section["dynamic_programming"]
+    numbers = section.dynamic_programming
     spacing = float(grid[1] - grid[0])
     least, reach = float(grid[0]) / 100.0, float(grid[-1])
     choices = [grid] * course.rings
     levels: list[dict[str, Any]] = []
-    for level in range(numbers["refinements"] + 1):
-        total, path = _best_path(given, section, course, cubesat, choices, known)
+    for level in range(numbers.refinements + 1):
+        total, path = _best_path(parameters, section, course, cubesat, choices, known)
         levels.append(
             {
                 "level": level,
@@ -219,8 +219,8 @@ def _refined(
 
 
 def _best_path(
-    given: Parameters,
-    section: Config,
+    parameters: Parameters,
+    section: Configuration,
     course: Course,
     cubesat: CubeSat,
     choices: list[np.ndarray],
@@ -233,7 +233,10 @@ def _best_path(
     for k in reversed(range(course.rings + 1)):
         times = np.array(
             [
-                [_segment_time(given, section, course, cubesat, k, v, w, known) for w in ends[k]]
+                [
+                    _segment_time(parameters, section, course, cubesat, k, v, w, known)
+                    for w in ends[k]
+                ]
                 for v in starts[k]
             ]
         )
@@ -249,8 +252,8 @@ def _best_path(
 
 
 def _segment_time(
-    given: Parameters,
-    section: Config,
+    parameters: Parameters,
+    section: Configuration,
     course: Course,
     cubesat: CubeSat,
     k: int,
@@ -270,27 +273,29 @@ def _segment_time(
             course.end if final else course.centres[k],
             REST if final else after * course.normals[k],
         )
-        solver = program(0, "state", section["optimum"]["intervals"])
-        plan = solver.solve(leg, cubesat, given.mean_motion)
+        solver = program(0, "state", section.optimum.intervals)
+        plan = solver.solve(leg, cubesat, parameters.mean_motion)
         known[key] = plan.time if plan.converged else np.inf
     return known[key]
 
 
-def thrust_sweep(given: Parameters, section: Config, scenario: str) -> Checked:
+def thrust_sweep(parameters: Parameters, section: Configuration, scenario: str) -> Checked:
     """The optimum over thrust, from the middle of the start: what it does to time and accuracy."""
-    course = given.races[scenario].course
+    course = parameters.races[scenario].course
     rows, missing = [], []
-    for thrust in section["thrust_sweep_m_s2"]:
+    for thrust in section.thrust_sweep_m_s2:
         cubesat = CubeSat("any", thrust, (), course.start)
         row: dict[str, Any] = {"scenario": scenario, "thrust_m_s2": thrust}
         multiplier = np.nan
         for name, finish in ((WHOLE, "state"), (ANYWHERE, "rest anywhere")):
-            solver = program(course.rings, finish, section["optimum"]["intervals"])
-            plan = attempts.solve(solver, whole_leg(course, cubesat), cubesat, given.mean_motion)
+            solver = program(course.rings, finish, section.optimum.intervals)
+            plan = attempts.solve(
+                solver, whole_leg(course, cubesat), cubesat, parameters.mean_motion
+            )
             if not plan.converged:
                 case = f"{scenario}, thrust of {thrust:g} m/s^2, {name}"
-                missing.append(attempts.not_converged(case, plan, cubesat, given.mean_motion))
-            flown = propagate_plan(plan, given.mean_motion)
+                missing.append(attempts.not_converged(case, plan, cubesat, parameters.mean_motion))
+            flown = propagate_plan(plan, parameters.mean_motion)
             row |= {
                 f"{name} (s)": plan.time if plan.converged else np.nan,
                 f"{name}, converged": plan.converged,
@@ -299,25 +304,25 @@ def thrust_sweep(given: Parameters, section: Config, scenario: str) -> Checked:
                 ),
             }
             if plan.converged:
-                check = primer_check(plan, cubesat, given.mean_motion)
+                check = primer_check(plan, cubesat, parameters.mean_motion)
                 multiplier = check["largest_ring_multiplier_s_m"]
         rows.append(row | {"largest_ring_multiplier_s_m": multiplier})
     return pd.DataFrame(rows), missing
 
 
-def start_positions(given: Parameters, section: Config, scenario: str) -> Checked:
+def start_positions(parameters: Parameters, section: Configuration, scenario: str) -> Checked:
     """The optimum from random places at the start, drawn as the document draws them."""
-    numbers, course = section["random_courses"], given.races[scenario].course
-    draws = np.random.default_rng([numbers["seed"], 1])
-    solver = program(course.rings, "state", section["optimum"]["intervals"])
+    numbers, course = section.random_courses, parameters.races[scenario].course
+    draws = np.random.default_rng([numbers.seed, 1])
+    solver = program(course.rings, "state", section.optimum.intervals)
     rows, missing = [], []
-    for number in range(numbers["positions"]):
-        offset = given.scatter * np.array([1.0, 0.0, 1.0]) * draws.standard_normal(3)
-        cubesat = CubeSat("any", numbers["thrust_m_s2"], (), course.start + offset)
-        plan = attempts.solve(solver, whole_leg(course, cubesat), cubesat, given.mean_motion)
+    for number in range(numbers.positions):
+        offset = parameters.scatter * np.array([1.0, 0.0, 1.0]) * draws.standard_normal(3)
+        cubesat = CubeSat("any", numbers.thrust_m_s2, (), course.start + offset)
+        plan = attempts.solve(solver, whole_leg(course, cubesat), cubesat, parameters.mean_motion)
         if not plan.converged:
             case = f"{scenario}, random place {number} at the start"
-            missing.append(attempts.not_converged(case, plan, cubesat, given.mean_motion))
+            missing.append(attempts.not_converged(case, plan, cubesat, parameters.mean_motion))
         rows.append(
             {
                 "scenario": scenario,

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.evidence.not_converged import NotConverged
+from smallsat.studies.racing.configuration import Configuration
 from smallsat.studies.racing.methods import as_published, attempts, indirect
 from smallsat.studies.racing.methods.course_program import (
     LEAST_SPEED,
@@ -96,29 +96,31 @@ def segment_name(course: Course, k: int) -> str:
     return f"{k} to {k + 1 if k < course.rings else 'end'}"
 
 
-def solve_optima(given: Parameters, section: Config, scenario: str) -> Tables:
+def solve_optima(parameters: Parameters, section: Configuration, scenario: str) -> Tables:
     """Every CubeSat of a scenario by the three well-posed kinds of solution."""
     tables = Tables()
-    race = given.races[scenario]
-    numerics = section["optimum"]
+    race = parameters.races[scenario]
+    numerics = section.optimum
     for cubesat in race.cubesats:
         key = {"scenario": scenario, "cubesat": cubesat.name}
         for name, finish in ((WHOLE, "state"), (ANYWHERE, "rest anywhere")):
-            solver = program(race.course.rings, finish, numerics["intervals"])
+            solver = program(race.course.rings, finish, numerics.intervals)
             leg = whole_leg(race.course, cubesat)
-            plan = attempts.solve(solver, leg, cubesat, given.mean_motion)
-            _add_plan(tables, key | {"solution": name}, plan, given, race.course, cubesat)
+            plan = attempts.solve(solver, leg, cubesat, parameters.mean_motion)
+            _add_plan(tables, key | {"solution": name}, plan, parameters, race.course, cubesat)
             tables.seconds.append(key | {"solution": name, "seconds": plan.solution.seconds})
         began = time.perf_counter()
-        plans = greedy(race.course, cubesat, given.mean_motion, numerics["intervals"])
+        plans = greedy(race.course, cubesat, parameters.mean_motion, numerics.intervals)
         greedy_seconds = time.perf_counter() - began
         joined = join(plans)
-        _add_plan(tables, key | {"solution": GREEDY}, joined, given, race.course, cubesat, plans)
+        _add_plan(
+            tables, key | {"solution": GREEDY}, joined, parameters, race.course, cubesat, plans
+        )
         tables.seconds.append(key | {"solution": GREEDY, "seconds": greedy_seconds})
         if not cubesat.axis_thrust:
             began = time.perf_counter()
             if joined.converged:
-                _add_extremals(tables, key, plans, given, section, race.course, cubesat)
+                _add_extremals(tables, key, plans, parameters, section, race.course, cubesat)
             else:
                 _without_start(tables, key | {"solution": INDIRECT}, race.course)
             seconds = time.perf_counter() - began
@@ -176,7 +178,7 @@ def _add_plan(
     tables: Tables,
     key: dict[str, Any],
     plan: Plan,
-    given: Parameters,
+    parameters: Parameters,
     course: Course,
     cubesat: CubeSat,
     plans: list[Plan] | None = None,
@@ -186,14 +188,14 @@ def _add_plan(
         where = "" if plans is None else f", segment {segment_name(course, len(plans) - 1)}"
         last = plan if plans is None else plans[-1]
         tables.not_converged.append(
-            attempts.not_converged(case_name(key) + where, last, cubesat, given.mean_motion)
+            attempts.not_converged(case_name(key) + where, last, cubesat, parameters.mean_motion)
         )
         solved = len(plans) - 1 if plans else 0
         _add_missing(tables, key, course, solved, last.solution.status)
         return
-    flown = propagate_plan(plan, given.mean_motion)
+    flown = propagate_plan(plan, parameters.mean_motion)
     arrivals = np.cumsum(plan.durations)
-    rows = ring_rows(course, flown[:, -1], arrivals, given.plane, given.pointing)
+    rows = ring_rows(course, flown[:, -1], arrivals, parameters.plane, parameters.pointing)
     failed = [segment_name(course, k) for k, one in enumerate(plans or [plan]) if not one.converged]
     tables.races.append(
         key
@@ -220,7 +222,7 @@ def _add_plan(
         }
         for k in range(course.rings + 1)
     ]
-    table = plan_table(plan, given.mean_motion)
+    table = plan_table(plan, parameters.mean_motion)
     for place, (name, value) in enumerate(key.items()):
         table.insert(place, name, value)
     tables.trajectories.append(table)
@@ -277,8 +279,8 @@ def _add_extremals(
     tables: Tables,
     key: dict[str, Any],
     plans: list[Plan],
-    given: Parameters,
-    section: Config,
+    parameters: Parameters,
+    section: Configuration,
     course: Course,
     cubesat: CubeSat,
 ) -> None:
@@ -287,14 +289,14 @@ def _add_extremals(
     rows, failed, total = [], [], 0.0
     ends, starts = [], []
     for k, plan in enumerate(plans):
-        found = _extremal(plan, course, k, given, section, cubesat)
-        intervals = section["optimum"]["intervals"]
+        found = _extremal(plan, course, k, parameters, section, cubesat)
+        intervals = section.optimum.intervals
         if not found.converged:
             intervals *= FINER
             solver, leg = _segment(course, k, plan.starts[0], intervals)
-            finer = solver.refine(leg, cubesat, given.mean_motion, plan)
+            finer = solver.refine(leg, cubesat, parameters.mean_motion, plan)
             if finer.converged:
-                found = _extremal(finer, course, k, given, section, cubesat)
+                found = _extremal(finer, course, k, parameters, section, cubesat)
         if not found.converged:
             failed.append(segment_name(course, k))
             tables.not_converged.append(
@@ -325,7 +327,7 @@ def _add_extremals(
         tables.races.append(key | _unsolved(course, failed))
         return
     arrivals = np.cumsum([row["duration_s"] for row in rows])
-    passed = ring_rows(course, np.array(ends), arrivals, given.plane, given.pointing)
+    passed = ring_rows(course, np.array(ends), arrivals, parameters.plane, parameters.pointing)
     tables.rings += [key | row for row in passed]
     tables.races.append(
         key
@@ -335,12 +337,17 @@ def _add_extremals(
     )
 
 
-def _panels(section: Config) -> list[int]:
-    return [section["optimum"]["indirect_panels"] * 8**i for i in range(3)]
+def _panels(section: Configuration) -> list[int]:
+    return [section.optimum.indirect_panels * 8**i for i in range(3)]
 
 
 def _extremal(
-    plan: Plan, course: Course, k: int, given: Parameters, section: Config, cubesat: CubeSat
+    plan: Plan,
+    course: Course,
+    k: int,
+    parameters: Parameters,
+    section: Configuration,
+    cubesat: CubeSat,
 ) -> indirect.Extremal:
     """The indirect method from a plan of segment k, with ever finer quadratures."""
     position = course.end if k == course.rings else course.centres[k]
@@ -358,7 +365,7 @@ def _extremal(
             plan.starts[0],
             goal,
             cubesat.thrust,
-            given.mean_motion,
+            parameters.mean_motion,
             plan.costates[0],
             plan.time,
             panels,
@@ -369,7 +376,7 @@ def _extremal(
 
 
 def solve_as_published(
-    given: Parameters,
+    parameters: Parameters,
     tolerance: float,
     scenario: str,
     settings: as_published.Settings,
@@ -377,16 +384,18 @@ def solve_as_published(
 ) -> Tables:
     """Every CubeSat of a scenario as the listings do it, or those named."""
     tables = Tables()
-    race = given.races[scenario]
+    race = parameters.races[scenario]
     for cubesat in race.cubesats:
         if not cubesats or cubesat.name in cubesats:
-            _solve_as_published(tables, given, tolerance, scenario, settings, race.course, cubesat)
+            _solve_as_published(
+                tables, parameters, tolerance, scenario, settings, race.course, cubesat
+            )
     return tables
 
 
 def _solve_as_published(
     tables: Tables,
-    given: Parameters,
+    parameters: Parameters,
     tolerance: float,
     scenario: str,
     settings: as_published.Settings,
@@ -408,14 +417,16 @@ def _solve_as_published(
             final=final,
         )
         clock = time.perf_counter()
-        solved = as_published.solve_segment(state, target, cubesat, given.mean_motion, settings)
+        solved = as_published.solve_segment(
+            state, target, cubesat, parameters.mean_motion, settings
+        )
         solving += time.perf_counter() - clock
         times, flown = propagate_segment(
             state,
             solved.costate,
             solved.duration,
             cubesat,
-            given.mean_motion,
+            parameters.mean_motion,
             settings.deadzone,
             tolerance,
             settings.transposed,
@@ -444,7 +455,9 @@ def _solve_as_published(
         # The printed cost is the solver's; the flight's own miss is what we count.
         miss = 0.0 if final else float(np.linalg.norm(state[:3] - target.centre))
         costs.append(solved.duration + miss)
-    rows = ring_rows(course, np.array(ends), np.array(arrivals), given.plane, given.pointing)
+    rows = ring_rows(
+        course, np.array(ends), np.array(arrivals), parameters.plane, parameters.pointing
+    )
     tables.rings += [key | row for row in rows]
     tables.races.append(
         key
@@ -462,10 +475,10 @@ def _solve_as_published(
 
 
 def variants(
-    given: Parameters, section: Config, scenario: str, cubesats: tuple[str, ...] = ()
+    parameters: Parameters, section: Configuration, scenario: str, cubesats: tuple[str, ...] = ()
 ) -> pd.DataFrame:
     """What the printed races become where one thing is done otherwise; all else as published."""
-    base = given.as_published
+    base = parameters.as_published
     changes = {
         "as published": base,
         "rings have their smaller axis as size": replace(base, ring_sizes=True),
@@ -473,12 +486,12 @@ def variants(
         "both": replace(base, ring_sizes=True, transposed=True),
     } | {
         f"constraints weigh {weight:g} at first": replace(base, first_penalty=weight)
-        for weight in section["as_published"]["other_first_weights"]
+        for weight in section.as_published.other_first_weights
     }
-    tolerance = section["as_published"]["tolerance"]
+    tolerance = section.as_published.tolerance
     parts = []
     for name, settings in changes.items():
-        flown = solve_as_published(given, tolerance, scenario, settings, cubesats)
+        flown = solve_as_published(parameters, tolerance, scenario, settings, cubesats)
         table = pd.DataFrame(flown.races)
         table["solution"] = name
         parts.append(table.rename(columns={"solution": "variant"}))

@@ -6,8 +6,8 @@ from collections.abc import Iterable
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.evidence.not_converged import NotConverged
+from smallsat.studies.racing.configuration import Configuration
 from smallsat.studies.racing.methods import attempts
 from smallsat.studies.racing.methods.races import program, whole_leg
 from smallsat.studies.racing.model.course import generate
@@ -19,29 +19,31 @@ RULES = {"generator": True, "text": False}
 
 
 def solve_random(
-    given: Parameters, section: Config, courses: Iterable[int], rings: int
+    parameters: Parameters, section: Configuration, courses: Iterable[int], rings: int
 ) -> tuple[pd.DataFrame, pd.DataFrame, list[NotConverged]]:
     """Some of the random courses, by number: results, seconds, courses not solved.
 
     Each course has a random stream of its own, so that it depends on its number alone. It is drawn
     twice: with the generator's halved ranges of angles, and with the text's whole ones.
     """
-    numbers = section["random_courses"]
-    streams = np.random.SeedSequence(numbers["seed"]).spawn(numbers["courses"])
-    solver = program(rings, "state", section["optimum"]["intervals"])
+    numbers = section.random_courses
+    streams = np.random.SeedSequence(numbers.seed).spawn(numbers.courses)
+    solver = program(rings, "state", section.optimum.intervals)
     rows, seconds, missing = [], [], []
     for number in courses:
         for rule, halved in RULES.items():
             draws = np.random.default_rng(streams[number])
-            course = generate(draws, given.ranges, rings, halved)
-            offset = given.scatter * np.array([1.0, 0.0, 1.0]) * draws.standard_normal(3)
-            cubesat = CubeSat("any", numbers["thrust_m_s2"], (), course.start + offset)
+            course = generate(draws, parameters.ranges, rings, halved)
+            offset = parameters.scatter * np.array([1.0, 0.0, 1.0]) * draws.standard_normal(3)
+            cubesat = CubeSat("any", numbers.thrust_m_s2, (), course.start + offset)
             began = time.perf_counter()
-            plan = attempts.solve(solver, whole_leg(course, cubesat), cubesat, given.mean_motion)
+            plan = attempts.solve(
+                solver, whole_leg(course, cubesat), cubesat, parameters.mean_motion
+            )
             seconds.append({"number": number, "rule": rule, "seconds": time.perf_counter() - began})
             if not plan.converged:
                 case = f"random course {number} by the rules of the {rule}"
-                missing.append(attempts.not_converged(case, plan, cubesat, given.mean_motion))
+                missing.append(attempts.not_converged(case, plan, cubesat, parameters.mean_motion))
             rows.append(
                 {
                     "number": number,

@@ -17,19 +17,19 @@ from smallsat.studies.racing.parameters import Parameters
 DAY_OFFSET = 366
 
 
-def start_positions(given: Parameters, seed: int, cubesats: int) -> tuple[int, np.ndarray]:
+def start_positions(parameters: Parameters, seed: int, cubesats: int) -> tuple[int, np.ndarray]:
     """Number of rings of a seed's course, and the places (cubesats, 3), m, that it draws next."""
     stream = MatlabStream(seed)
-    course = generate(stream, given.ranges)
+    course = generate(stream, parameters.ranges)
     draws = np.array([[stream.normal() for _ in range(3)] for _ in range(cubesats)])
-    return course.rings, course.start + given.scatter * draws * np.array([1.0, 0.0, 1.0])
+    return course.rings, course.start + parameters.scatter * draws * np.array([1.0, 0.0, 1.0])
 
 
-def recovered(given: Parameters, seeds: dict[str, int]) -> pd.DataFrame:
+def recovered(parameters: Parameters, seeds: dict[str, int]) -> pd.DataFrame:
     """Places from the seeds beside the printed ones, by scenario and CubeSat."""
     rows = []
-    for scenario, race in given.races.items():
-        _, places = start_positions(given, seeds[scenario], len(race.cubesats))
+    for scenario, race in parameters.races.items():
+        _, places = start_positions(parameters, seeds[scenario], len(race.cubesats))
         for cubesat, place in zip(race.cubesats, places, strict=True):
             for axis, computed, printed in zip("xyz", place, cubesat.position, strict=True):
                 rows.append(
@@ -45,18 +45,20 @@ def recovered(given: Parameters, seeds: dict[str, int]) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def search_days(given: Parameters, scenario: str, first_year: int, last_year: int) -> pd.DataFrame:
+def search_days(
+    parameters: Parameters, scenario: str, first_year: int, last_year: int
+) -> pd.DataFrame:
     """Every serial day number of some years as a seed: how far the printed places are from it.
 
     The largest difference over the places, m; infinite where the number of rings is another.
     """
-    race = given.races[scenario]
+    race = parameters.races[scenario]
     printed = np.array([cubesat.position for cubesat in race.cubesats])
     first = date(first_year, 1, 1).toordinal() + DAY_OFFSET
     last = date(last_year + 1, 1, 1).toordinal() + DAY_OFFSET
     rows = []
     for seed in range(first, last):
-        rings, places = start_positions(given, seed, len(printed))
+        rings, places = start_positions(parameters, seed, len(printed))
         same = rings == race.course.rings
         difference = float(np.abs(places - printed).max()) if same else np.inf
         rows.append(

@@ -4,18 +4,21 @@ import pandas as pd
 
 from smallsat.evidence.not_converged import not_converged_table
 from smallsat.step import Step, Tables
+from smallsat.studies.racing.configuration import Configuration
 from smallsat.studies.racing.methods import checks
-from smallsat.studies.racing.parameters import SCENARIOS, parameters
+from smallsat.studies.racing.parameters import SCENARIOS, Parameters
 
 
-def run(step: Step) -> Tables:
+def run(step: Step[Configuration]) -> Tables:
     """Check the optima."""
-    section, given = step.section, parameters(step.section)
+    section, parameters = step.section, Parameters.from_section(step.section)
     parts: dict[str, list[checks.Checked]] = {
-        "meshes": [checks.mesh_refinement(given, section, name) for name in SCENARIOS],
-        "other-starts": [(checks.other_starts(given, section, name), []) for name in SCENARIOS],
-        "thrust-sweep": [checks.thrust_sweep(given, section, SCENARIOS[0])],
-        "random-positions": [checks.start_positions(given, section, SCENARIOS[1])],
+        "meshes": [checks.mesh_refinement(parameters, section, name) for name in SCENARIOS],
+        "other-starts": [
+            (checks.other_starts(parameters, section, name), []) for name in SCENARIOS
+        ],
+        "thrust-sweep": [checks.thrust_sweep(parameters, section, SCENARIOS[0])],
+        "random-positions": [checks.start_positions(parameters, section, SCENARIOS[1])],
     }
     missing = [case for found in parts.values() for part in found for case in part[1]]
     return {

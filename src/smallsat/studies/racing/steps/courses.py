@@ -1,22 +1,23 @@
 """The courses, and the start positions from their seeds."""
 
 from smallsat.step import Step, Tables
+from smallsat.studies.racing.configuration import Configuration
 from smallsat.studies.racing.methods.recovery import recovered, search_days
 from smallsat.studies.racing.model.course import course_table
-from smallsat.studies.racing.parameters import SCENARIOS, parameters
+from smallsat.studies.racing.parameters import SCENARIOS, Parameters
 
 # Years whose days are tried as seeds of the shuffled race: the listing is of 2025.
 YEARS = (2021, 2026)
 
 
-def run(step: Step) -> Tables:
+def run(step: Step[Configuration]) -> Tables:
     """Make them."""
-    given = parameters(step.section)
-    seeds = {name: step.section["scenarios"][name]["seed"] for name in SCENARIOS}
+    parameters = Parameters.from_section(step.section)
+    seeds = {name: step.section.scenarios[name].seed for name in SCENARIOS}
     return {
         f"course-{scenario}.csv": course_table(race.course)
-        for scenario, race in given.races.items()
+        for scenario, race in parameters.races.items()
     } | {
-        "start-positions.csv": recovered(given, seeds),
-        "days-as-seeds.csv": search_days(given, SCENARIOS[1], *YEARS),
+        "start-positions.csv": recovered(parameters, seeds),
+        "days-as-seeds.csv": search_days(parameters, SCENARIOS[1], *YEARS),
     }

@@ -2,13 +2,16 @@
 
 from smallsat.evidence.not_converged import not_converged_table
 from smallsat.step import Step, Tables
+from smallsat.studies.racing.configuration import Configuration
 from smallsat.studies.racing.methods.checks import dynamic_programming
-from smallsat.studies.racing.parameters import SCENARIOS, parameters
+from smallsat.studies.racing.parameters import SCENARIOS, Parameters
 
 
-def run(step: Step) -> Tables:
+def run(step: Step[Configuration]) -> Tables:
     """Find it."""
-    table, missing = dynamic_programming(parameters(step.section), step.section, SCENARIOS[0])
+    table, missing = dynamic_programming(
+        Parameters.from_section(step.section), step.section, SCENARIOS[0]
+    )
     return {
         "dynamic-programming.csv": table,
         "dynamic-programming-not-converged.csv": not_converged_table(missing),

@@ -7,13 +7,14 @@ from smallsat.evidence.not_converged import joined
 from smallsat.evidence.observation import observations_table
 from smallsat.results import read_table
 from smallsat.step import Step, Tables
+from smallsat.studies.racing.configuration import Configuration
 from smallsat.studies.racing.evidence.observations import observations, timings
 from smallsat.studies.racing.parameters import SCENARIOS
 
 KINDS = ("as-published", "optima")
 
 
-def run(step: Step) -> Tables:
+def run(step: Step[Configuration]) -> Tables:
     """Join scenarios and shards, observe, and list what did not converge."""
     shards = [f"random-courses-{shard}" for shard in step.shard.all(step.shard.count)]
     courses = pd.concat([_read(step, shard) for shard in shards], ignore_index=True)
@@ -35,10 +36,10 @@ def run(step: Step) -> Tables:
     }
 
 
-def _scenarios(step: Step, table: str) -> pd.DataFrame:
+def _scenarios(step: Step[Configuration], table: str) -> pd.DataFrame:
     names = [f"{kind}-{scenario}-{table}" for scenario in SCENARIOS for kind in KINDS]
     return pd.concat([_read(step, name) for name in names], ignore_index=True)
 
 
-def _read(step: Step, name: str) -> pd.DataFrame:
+def _read(step: Step[Configuration], name: str) -> pd.DataFrame:
     return read_table(step.results / f"{name}.csv")

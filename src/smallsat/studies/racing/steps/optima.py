@@ -2,13 +2,14 @@
 
 from smallsat.evidence.not_converged import not_converged_table
 from smallsat.step import Step, Tables
+from smallsat.studies.racing.configuration import Configuration
 from smallsat.studies.racing.methods.races import solve_optima
-from smallsat.studies.racing.parameters import parameters
+from smallsat.studies.racing.parameters import Parameters
 
 
-def run(step: Step) -> Tables:
+def run(step: Step[Configuration]) -> Tables:
     """Solve it."""
-    flown = solve_optima(parameters(step.section), step.section, step.part)
+    flown = solve_optima(Parameters.from_section(step.section), step.section, step.part)
     return flown.files(f"optima-{step.part}") | {
         f"optima-{step.part}-not-converged.csv": not_converged_table(flown.not_converged)
     }

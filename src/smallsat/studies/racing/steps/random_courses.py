@@ -2,16 +2,17 @@
 
 from smallsat.evidence.not_converged import not_converged_table
 from smallsat.step import Step, Tables
+from smallsat.studies.racing.configuration import Configuration
 from smallsat.studies.racing.methods.random_courses import solve_random
-from smallsat.studies.racing.parameters import SCENARIOS, parameters
+from smallsat.studies.racing.parameters import SCENARIOS, Parameters
 
 
-def run(step: Step) -> Tables:
+def run(step: Step[Configuration]) -> Tables:
     """Solve the shard's courses; seconds go to a file of their own."""
-    given = parameters(step.section)
-    rings = given.races[SCENARIOS[1]].course.rings
-    courses = step.shard.units(step.section["random_courses"]["courses"])
-    found, seconds, missing = solve_random(given, step.section, courses.tolist(), rings)
+    parameters = Parameters.from_section(step.section)
+    rings = parameters.races[SCENARIOS[1]].course.rings
+    courses = step.shard.units(step.section.random_courses.courses)
+    found, seconds, missing = solve_random(parameters, step.section, courses.tolist(), rings)
     stem = f"random-courses-{step.shard}"
     return {
         f"{stem}.csv": found,

@@ -1,14 +1,15 @@
 """The published solve with one thing changed."""
 
 from smallsat.step import Step, Tables
+from smallsat.studies.racing.configuration import Configuration
 from smallsat.studies.racing.methods.races import variants
-from smallsat.studies.racing.parameters import SCENARIOS, parameters
+from smallsat.studies.racing.parameters import SCENARIOS, Parameters
 
 # The CubeSat whose variants are flown: all are alike in this.
 VARIED = ("Meeny",)
 
 
-def run(step: Step) -> Tables:
+def run(step: Step[Configuration]) -> Tables:
     """Fly each variant."""
-    given = parameters(step.section)
-    return {"variants.csv": variants(given, step.section, SCENARIOS[0], VARIED)}
+    parameters = Parameters.from_section(step.section)
+    return {"variants.csv": variants(parameters, step.section, SCENARIOS[0], VARIED)}

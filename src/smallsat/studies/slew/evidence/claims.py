@@ -5,12 +5,13 @@ import pandas as pd
 
 from smallsat.evidence.claims import Judgement, judged
 from smallsat.evidence.grounds import Grounds
+from smallsat.studies.slew.configuration import Configuration
 from smallsat.studies.slew.evidence.observations import short_of, target_yaw
 from smallsat.studies.slew.methods.bound import impossible, largest_disturbance, needed, reach
 from smallsat.studies.slew.methods.environment_study import crossover_km
 from smallsat.studies.slew.methods.minimum_time import eigenaxis_time
 from smallsat.studies.slew.model.simulation import angles_deg
-from smallsat.studies.slew.parameters import Parameters, panels, parameters
+from smallsat.studies.slew.parameters import Parameters, panels
 
 # Where the document prints its torque-optimal and its eigenaxis turns.
 OPTIMAL, EIGENAXIS = "section-vi-b", "section-vi-a"
@@ -29,18 +30,18 @@ def _least(grounds: Grounds, case: str) -> float:
     return float(grounds.rows("minimum-times.csv", case=case, converged=True)["duration_s"].iloc[0])
 
 
-def _turn_about_z(given: Parameters, case: str) -> None:
+def _turn_about_z(parameters: Parameters, case: str) -> None:
     """Raise a LookupError unless a turn goes from no angles to a yaw: the claim is about that."""
-    along = np.r_[given.initial[:2], given.targets[case][:2]]
-    if np.abs(along).max() > ROUNDING or abs(given.initial[2]) > ROUNDING:
+    along = np.r_[parameters.initial[:2], parameters.targets[case][:2]]
+    if np.abs(along).max() > ROUNDING or abs(parameters.initial[2]) > ROUNDING:
         raise LookupError("the turn is not about the body's z axis")
 
 
-def not_in_the_given_time(grounds: Grounds) -> Judgement:
+def not_in_the_given_time(grounds: Grounds[Configuration]) -> Judgement:
     """180 deg in 100 s are confronted with a bound without an optimiser and the least time."""
-    given = parameters(grounds.config["slew"])
-    duration, angle = given.duration, np.degrees(needed(given, "half"))
-    name = given.names["half"]
+    parameters = Parameters.from_section(grounds.section)
+    duration, angle = parameters.duration, np.degrees(needed(parameters, "half"))
+    name = parameters.names["half"]
     least = _least(grounds, f"{name}, wheels and gravity gradient")
     answers = grounds.table("infeasible.csv")
     if answers["hard_converged"].any() or least <= duration:
@@ -49,14 +50,14 @@ def not_in_the_given_time(grounds: Grounds) -> Judgement:
             f"the least time found is {least:.3f} s, and the solver answers {duration:g} s with "
             f"{', '.join(answers['hard_status'])}",
         )
-    if not impossible(given, "half", duration):
+    if not impossible(parameters, "half", duration):
         return Judgement(
             "undecided",
             f"the bound leaves {duration:g} s possible, and no plan was found in less than "
             f"{least:.3f} s",
         )
-    outer = largest_disturbance(given, duration)
-    path = np.degrees(reach(given.inertia, given.torque, duration, disturbance=outer))
+    outer = largest_disturbance(parameters, duration)
+    path = np.degrees(reach(parameters.inertia, parameters.torque, duration, disturbance=outer))
     bound = grounds.table("bound.csv").set_index("model")["bound_s"]
     return Judgement(
         "holds",
@@ -67,7 +68,7 @@ def not_in_the_given_time(grounds: Grounds) -> Judgement:
     )
 
 
-def valid_trajectory_at_limits(grounds: Grounds) -> Judgement:
+def valid_trajectory_at_limits(grounds: Grounds[Configuration]) -> Judgement:
     """There must be a valid trajectory for the 180 deg turn in 100 s."""
     judgement = not_in_the_given_time(grounds)
     row = grounds.table("infeasible.csv").iloc[-1]
@@ -76,7 +77,7 @@ def valid_trajectory_at_limits(grounds: Grounds) -> Judgement:
     if judgement.outcome == "fails":
         return Judgement("holds", f"a valid one exists: {judgement.evidence}")
     miss = np.degrees(np.sqrt(row["miss"]))
-    duration = grounds.config["slew"]["manoeuvre"]["duration_s"]
+    duration = grounds.section.manoeuvre.duration_s
     return Judgement(
         "fails",
         f"no valid one exists: {judgement.evidence}. The least infeasible plan misses its end by "
@@ -85,21 +86,21 @@ def valid_trajectory_at_limits(grounds: Grounds) -> Judgement:
     )
 
 
-def printed_run_misses(grounds: Grounds) -> Judgement:
+def printed_run_misses(grounds: Grounds[Configuration]) -> Judgement:
     """The printed final momentum is J w of the printed final rates."""
-    given = parameters(grounds.config["slew"])
+    parameters = Parameters.from_section(grounds.section)
     rates, final = (
         grounds.ledger.values(f"{OPTIMAL}/final-{quantity}/180-deg-torque-optimal")
         for quantity in ("angular-rate", "angular-momentum-usage")
     )
-    shares = 100.0 * np.radians(1.0) * np.diag(given.inertia) / given.momentum
+    shares = 100.0 * np.radians(1.0) * np.diag(parameters.inertia) / parameters.momentum
     texts, fits = [], []
     for rate, printed, share in zip(rates, final, shares, strict=True):
         room = share * rate.half_unit + printed.half_unit
         fits.append(abs(share * rate.value - printed.value) <= room)
         texts.append(f"{share * rate.value:.2f} ({printed.value}) %")
-    x, y, z = (one.value / 100.0 * given.momentum for one in final)
-    path = np.degrees(reach(given.inertia, given.torque, given.duration, (x, y, z)))
+    x, y, z = (one.value / 100.0 * parameters.momentum for one in final)
+    path = np.degrees(reach(parameters.inertia, parameters.torque, parameters.duration, (x, y, z)))
     return judged(
         all(fits),
         f"J w of the printed rates is {', '.join(texts)}, printed values in brackets: equal within "
@@ -138,45 +139,45 @@ def omega_z_nearly_half(grounds: Grounds) -> Judgement:
     return judged(abs(ratio - 0.5) < 0.05, f"the printed rates have the ratio {ratio:.2f}")
 
 
-def eigenaxis_is_not_fastest(grounds: Grounds) -> Judgement:
+def eigenaxis_is_not_fastest(grounds: Grounds[Configuration]) -> Judgement:
     """The least times are compared with full torque about the eigenaxis alone."""
-    given = parameters(grounds.config["slew"])
+    parameters = Parameters.from_section(grounds.section)
     texts, faster = [], []
-    for case, name in given.names.items():
-        _, moment = _body_axis(given, case)
+    for case, name in parameters.names.items():
+        _, moment = _body_axis(parameters, case)
         least = _least(grounds, f"{name}, wheels")
-        angle = np.radians(given.angle_deg(case))
-        alone = eigenaxis_time(angle, moment, given.torque, given.momentum)
+        angle = np.radians(parameters.angle_deg(case))
+        alone = eigenaxis_time(angle, moment, parameters.torque, parameters.momentum)
         faster.append(least < alone - 1.0)
         texts.append(f"{name}: {least:.2f} s against {alone:.2f} s")
     return judged(all(faster), "; ".join(texts))
 
 
-def _body_axis(given: Parameters, case: str) -> tuple[str, float]:
+def _body_axis(parameters: Parameters, case: str) -> tuple[str, float]:
     """The body axis that a turn is about and its moment, kg m^2.
 
     A LookupError where it is none, or no principal axis: a turn about it alone is then no motion by
     its own wheel.
     """
-    place = int(np.argmax(np.abs(given.axis(case))))
-    others = np.delete(np.r_[given.axis(case), given.inertia[place]], [place, 3 + place])
+    place = int(np.argmax(np.abs(parameters.axis(case))))
+    others = np.delete(np.r_[parameters.axis(case), parameters.inertia[place]], [place, 3 + place])
     if np.abs(others).max() > ROUNDING:
         raise LookupError("the turn is not about a principal axis along a wheel")
-    return "xyz"[place], float(given.inertia[place, place])
+    return "xyz"[place], float(parameters.inertia[place, place])
 
 
-def nutation_saves_torque(grounds: Grounds) -> Judgement:
+def nutation_saves_torque(grounds: Grounds[Configuration]) -> Judgement:
     """90 deg: it is asked whether motion about x and y lowers the torque used."""
-    given = parameters(grounds.config["slew"])
+    parameters = Parameters.from_section(grounds.section)
     plans = grounds.table("plans.csv").set_index("plan")
-    row = plans.loc[f"{given.names['quarter']}, no gravity gradient, segments"]
-    axis, moment = _body_axis(given, "quarter")
-    angle = np.radians(given.angle_deg("quarter"))
-    alone = eigenaxis_time(angle, moment, given.torque, given.momentum)
-    if not row["held_converged"] == True or alone > given.duration:  # noqa: E712
+    row = plans.loc[f"{parameters.names['quarter']}, no gravity gradient, segments"]
+    axis, moment = _body_axis(parameters, "quarter")
+    angle = np.radians(parameters.angle_deg("quarter"))
+    alone = eigenaxis_time(angle, moment, parameters.torque, parameters.momentum)
+    if not row["held_converged"] == True or alone > parameters.duration:  # noqa: E712
         raise LookupError("there is no such plan, or none about the axis alone")
-    cost, peak = bang_coast_bang(angle, moment, given.torque, given.duration)
-    share = 100.0 * peak / given.momentum
+    cost, peak = bang_coast_bang(angle, moment, parameters.torque, parameters.duration)
+    share = 100.0 * peak / parameters.momentum
     found = f"{1e4 * row['held_cost_N_m_s']:.3f}e-4 N m s against {1e4 * cost:.3f}e-4 by hand"
     saving = 1.0 - row["held_cost_N_m_s"] / cost
     if saving >= SAME_COST:
@@ -202,19 +203,19 @@ def bang_coast_bang(
     return 2.0 * torque * burn, torque * burn
 
 
-def better_than_eigenaxis(grounds: Grounds) -> Judgement:
+def better_than_eigenaxis(grounds: Grounds[Configuration]) -> Judgement:
     """90 deg: yaw error and peak momentum in the fuller model are compared, open loop with PD."""
-    given = parameters(grounds.config["slew"])
-    _turn_about_z(given, "quarter")
+    parameters = Parameters.from_section(grounds.section)
+    _turn_about_z(parameters, "quarter")
     found = []
     for table, name in (
-        ("replays.parquet", f"{given.names['quarter']}, one segment"),
+        ("replays.parquet", f"{parameters.names['quarter']}, one segment"),
         ("flights.parquet", "eigenaxis quarter"),
     ):
         flown = grounds.rows(table, flight=name)
         yaw = angles_deg(flown.tail(1))[0, 2]
-        error = abs(short_of(yaw, target_yaw(given, "quarter")))
-        found.append((error, 100.0 * flown["h_z"].abs().max() / given.momentum))
+        error = abs(short_of(yaw, target_yaw(parameters, "quarter")))
+        found.append((error, 100.0 * flown["h_z"].abs().max() / parameters.momentum))
     (error, peak), (pd_error, pd_peak) = found
     return judged(
         error < pd_error and peak < pd_peak,
@@ -223,11 +224,11 @@ def better_than_eigenaxis(grounds: Grounds) -> Judgement:
     )
 
 
-def eigenaxis_stays_on_axis(grounds: Grounds) -> Judgement:
+def eigenaxis_stays_on_axis(grounds: Grounds[Configuration]) -> Judgement:
     """Roll and pitch of all eigenaxis flights must stay small."""
-    given = parameters(grounds.config["slew"])
-    for case in given.names:
-        _turn_about_z(given, case)
+    parameters = Parameters.from_section(grounds.section)
+    for case in parameters.names:
+        _turn_about_z(parameters, case)
     flights = grounds.table("flights.parquet")
     largest = float(np.abs(angles_deg(flights.iloc[::10])[:, :2]).max())
     return judged(
@@ -235,14 +236,14 @@ def eigenaxis_stays_on_axis(grounds: Grounds) -> Judgement:
     )
 
 
-def open_loop_follows(grounds: Grounds) -> Judgement:
+def open_loop_follows(grounds: Grounds[Configuration]) -> Judgement:
     """90 deg: the torque history flown open loop is compared with the plan."""
-    given = parameters(grounds.config["slew"])
-    _turn_about_z(given, "quarter")
-    name = f"{given.names['quarter']}, one segment"
+    parameters = Parameters.from_section(grounds.section)
+    _turn_about_z(parameters, "quarter")
+    name = f"{parameters.names['quarter']}, one segment"
     flown = grounds.rows("replays.parquet", flight=name).tail(1)
     roll, pitch, yaw = angles_deg(flown)[0]
-    aside = short_of(yaw, target_yaw(given, "quarter"))
+    aside = short_of(yaw, target_yaw(parameters, "quarter"))
     error = float(np.sqrt(roll**2 + pitch**2 + aside**2))
     return judged(
         error < VISIBLE_DEG,
@@ -251,9 +252,9 @@ def open_loop_follows(grounds: Grounds) -> Judgement:
     )
 
 
-def half_turn_off_eigenaxis(grounds: Grounds) -> Judgement:
+def half_turn_off_eigenaxis(grounds: Grounds[Configuration]) -> Judgement:
     """180 deg: the body's z axis must tilt on feasible plans."""
-    _turn_about_z(parameters(grounds.config["slew"]), "half")
+    _turn_about_z(Parameters.from_section(grounds.section), "half")
     tilts = _tilts(grounds.rows("trade-off-plans.parquet"))
     falling = len(tilts) > 1 and tilts.is_monotonic_decreasing
     order = ", the more the shorter the time" if falling else ""
@@ -272,9 +273,9 @@ def _tilts(plans: pd.DataFrame) -> pd.Series:
     return tilts.groupby(plans["plan"]).max()[times.index]
 
 
-def closed_loop_of_the_axis(grounds: Grounds) -> Judgement:
+def closed_loop_of_the_axis(grounds: Grounds[Configuration]) -> Judgement:
     """180 deg: the path of the body's z axis in the inertial x-y plane closes on itself."""
-    _turn_about_z(parameters(grounds.config["slew"]), "half")
+    _turn_about_z(Parameters.from_section(grounds.section), "half")
     plans = grounds.rows("trade-off-plans.parquet")
     path = plans[plans["plan"] == plans["plan"].iloc[0]]
     q1, q2, q3, q4 = (path[f"q_{i}"].to_numpy() for i in range(1, 5))
@@ -289,11 +290,11 @@ def closed_loop_of_the_axis(grounds: Grounds) -> Judgement:
     )
 
 
-def torque_all_the_time(grounds: Grounds) -> Judgement:
+def torque_all_the_time(grounds: Grounds[Configuration]) -> Judgement:
     """180 deg: there must be torque about each axis nearly all the time."""
     plans = grounds.rows("trade-off-plans.parquet")
-    given = parameters(grounds.config["slew"])
-    limit = 0.01 * given.torque
+    parameters = Parameters.from_section(grounds.section)
+    limit = 0.01 * parameters.torque
     shares = [
         (
             str(name),
@@ -310,22 +311,22 @@ def torque_all_the_time(grounds: Grounds) -> Judgement:
     )
 
 
-def gradient_dominates(grounds: Grounds) -> Judgement:
+def gradient_dominates(grounds: Grounds[Configuration]) -> Judgement:
     """From 400 km on the gravity gradient is the larger torque, over the band of assumptions."""
-    section = grounds.config["slew"]
+    section = grounds.section
     name = "section-v-c/altitude-above-which-gravity-gradient-dominates/environment-torque-study"
     least = grounds.ledger.value(name).value
     table = grounds.table("environment.csv")
     larger = table["gravity_gradient_N_m"] > table["drag_N_m"]
     above = larger[table["altitude_km"] >= least]
-    lever = np.isclose(table["offset_mm"], 1e3 * abs(panels(section)[0, 5]))
+    lever = np.isclose(table["offset_mm"], 1e3 * abs(panels(section.spacecraft)[0, 5]))
     if not len(above) or not lever.any():
         raise LookupError(f"no altitude from {least:g} km on, or not the printed lever")
     everywhere = larger[lever & np.isclose(table["density_factor"], 1.0)].all()
     share = float(above.mean())
-    largest = max(section["environment"]["offsets_mm"])
+    largest = max(section.environment.offsets_mm)
     crossing = crossover_km(table, largest)
-    worst = crossover_km(table, largest, max(section["environment"]["density_factors"]))
+    worst = crossover_km(table, largest, max(section.environment.density_factors))
     return Judgement(
         "holds" if share == 1.0 else "undecided",
         f"with the printed lever it {'dominates' if everywhere else 'does not dominate'} at every "
@@ -339,12 +340,12 @@ def _km(altitude: float) -> str:
     return "no altitude studied" if np.isnan(altitude) else f"{altitude:.0f} km"
 
 
-def transition_matrix_keeps_length(grounds: Grounds) -> Judgement:
+def transition_matrix_keeps_length(grounds: Grounds[Configuration]) -> Judgement:
     """The closed form is a rotation: only rounding denormalises the quaternion."""
     table = grounds.table("propagator.csv")
     length = float(table["length_error"].max())
-    given = parameters(grounds.config["slew"])
-    flown = table[table["flight"].str.startswith(given.names["half"])]
+    parameters = Parameters.from_section(grounds.section)
+    flown = table[table["flight"].str.startswith(parameters.names["half"])]
     rows = flown.set_index("step_s")["error_deg"]
     if not rows[1.0] > 0.0:
         raise LookupError("the turn is too short for steps of a second")
@@ -352,15 +353,15 @@ def transition_matrix_keeps_length(grounds: Grounds) -> Judgement:
     order = "second order, " if abs(ratio - 4.0) < 1.0 else ""
     return judged(
         length < 1e-12,
-        f"the length is off by at most {length:.0e} after {given.duration:g} s; the attitude error "
-        f"is {rows[1.0]:g} deg with the printed step and falls by {ratio:.1f} when the step is "
-        f"halved, {order}so the step matters and rounding does not",
+        f"the length is off by at most {length:.0e} after {parameters.duration:g} s; the attitude "
+        f"error is {rows[1.0]:g} deg with the printed step and falls by {ratio:.1f} when the step "
+        f"is halved, {order}so the step matters and rounding does not",
     )
 
 
-def local_minima(grounds: Grounds) -> Judgement:
+def local_minima(grounds: Grounds[Configuration]) -> Judgement:
     """Several starts must end in different least times."""
-    name = parameters(grounds.config["slew"]).names["half"]
+    name = Parameters.from_section(grounds.section).names["half"]
     case = f"{name}, wheels"
     found = grounds.rows("minimum-time-starts.csv", converged=True, case=case)
     durations = np.sort(found["duration_s"])

@@ -10,8 +10,9 @@ from smallsat.dynamics.environment.torques import gravity_gradient
 from smallsat.evidence.errata import Proof
 from smallsat.evidence.grounds import Grounds
 from smallsat.optimal_control.gauss_pseudospectral import differentiation_matrix, legendre_gauss
+from smallsat.studies.slew.configuration import Configuration
 from smallsat.studies.slew.evidence.observations import scaled_durations
-from smallsat.studies.slew.parameters import parameters
+from smallsat.studies.slew.parameters import Parameters
 
 # Columns of Table 4: turns and processors.
 MEASURED = [f"{turn}-deg-{name}" for turn in (90, 180) for name in ("i7-2700k", "core2duo-t7700")]
@@ -19,17 +20,17 @@ ROUNDING = 1e-9
 NODES = 7  # of the quadrature in proofs; any number would do
 
 
-def _table_3(grounds: Grounds, case: str) -> dict[Any, float]:
+def _table_3(grounds: Grounds[Configuration], case: str) -> dict[Any, float]:
     """A line of Table 3: its scaled time, and the smallest and largest time that follow, s."""
-    table = scaled_durations(parameters(grounds.config["slew"]), grounds.results)
+    table = scaled_durations(Parameters.from_section(grounds.section), grounds.results)
     return table.set_index("case").to_dict("index")[case]
 
 
-def table_3_time_optimal(grounds: Grounds) -> Proof:
+def table_3_time_optimal(grounds: Grounds[Configuration]) -> Proof:
     """52.80 s: the two columns of a row are one number times two known roots."""
-    given = parameters(grounds.config["slew"])
+    parameters = Parameters.from_section(grounds.section)
     row = _table_3(grounds, "90-deg-time-optimal")
-    scales = np.sqrt(np.diag(given.inertia)[[0, 2]] / given.torque)
+    scales = np.sqrt(np.diag(parameters.inertia)[[0, 2]] / parameters.torque)
     printed = grounds.ledger.value("table-3/t-min/90-deg-time-optimal").value
     implied = printed / scales[0]
     return Proof(
@@ -43,14 +44,14 @@ def table_3_time_optimal(grounds: Grounds) -> Proof:
     )
 
 
-def table_3_eigenaxis(grounds: Grounds) -> Proof:
+def table_3_eigenaxis(grounds: Grounds[Configuration]) -> Proof:
     """88.90 s: full torque forth and back about the axis of the largest moment."""
-    given = parameters(grounds.config["slew"])
+    parameters = Parameters.from_section(grounds.section)
     row = _table_3(grounds, "90-deg-eigenaxis")
-    moment = given.inertia[2, 2]
+    moment = parameters.inertia[2, 2]
     printed = grounds.ledger.value("table-3/t-max/90-deg-eigenaxis")
-    turned = np.degrees(given.torque / moment * (printed.value / 2.0) ** 2)
-    exact = np.degrees(given.torque / moment * (row["t_max"] / 2.0) ** 2)
+    turned = np.degrees(parameters.torque / moment * (printed.value / 2.0) ** 2)
+    exact = np.degrees(parameters.torque / moment * (row["t_max"] / 2.0) ** 2)
     return Proof(
         abs(row["t_max"] - printed.value) > 2 * printed.half_unit and abs(exact - 90.0) < 1e-6,
         f"{printed.value:.2f} s turns the body by {turned:.2f} deg",
@@ -78,11 +79,11 @@ def table_2_velocity_sign(grounds: Grounds) -> Proof:
     )
 
 
-def peak_momentum(grounds: Grounds) -> Proof:
+def peak_momentum(grounds: Grounds[Configuration]) -> Proof:
     """38.9 %: no controller of the family gives it together with the other printed values."""
-    given = parameters(grounds.config["slew"])
+    parameters = Parameters.from_section(grounds.section)
     flown = grounds.rows("flights.parquet", flight="eigenaxis quarter")
-    peak = float(100.0 * flown["h_z"].abs().max() / given.momentum)
+    peak = float(100.0 * flown["h_z"].abs().max() / parameters.momentum)
     name = "section-vi-a/maximum-angular-momentum-usage/90-deg-eigenaxis/z"
     printed = grounds.ledger.value(name).value
     fits, alone, together = (
@@ -107,33 +108,33 @@ def peak_momentum(grounds: Grounds) -> Proof:
     )
 
 
-def dimensions(grounds: Grounds) -> Proof:
+def dimensions(grounds: Grounds[Configuration]) -> Proof:
     """l, b, h: with the printed sizes the areas of Table 5 are a hundred times too large."""
-    craft = grounds.config["slew"]["spacecraft"]
-    size, areas = craft["size_m"], craft["panel_area_m2"]
+    craft = grounds.section.spacecraft
+    size, areas = craft.size_m, craft.panel_area_m2
     length, breadth, height = np.array(
         grounds.ledger.values("appendix-after-table-5/cubesat-dimension"), dtype=float
     )
     printed = length * breadth
-    correct = size["length"] * size["breadth"]
-    end = size["breadth"] * size["height"]
-    density = craft["mass_kg"] / (printed * height)
+    correct = size.length * size.breadth
+    end = size.breadth * size.height
+    density = craft.mass_kg / (printed * height)
     return Proof(
-        np.isclose(correct, areas["side"])
-        and np.isclose(end, areas["end"])
-        and not np.isclose(printed, areas["side"]),
+        np.isclose(correct, areas.side)
+        and np.isclose(end, areas.end)
+        and not np.isclose(printed, areas.side),
         f"l b = {printed:g} m^2, and {density:.2g} kg/m^3",
         f"l b = {correct:g} m^2, as in Table 5",
-        f"Table 5 has panels of {areas['side']} and {areas['end']} m^2, which are l b and b h "
+        f"Table 5 has panels of {areas.side} and {areas.end} m^2, which are l b and b h "
         f"of the sizes ten times the printed ones; with those the mass of "
-        f"{craft['mass_kg']:g} kg would have a density of {density:.2g} kg/m^3",
-        correct=f"l = {size['length']:g} m, b = h = {size['breadth']:g} m",
+        f"{craft.mass_kg:g} kg would have a density of {density:.2g} kg/m^3",
+        correct=f"l = {size.length:g} m, b = h = {size.breadth:g} m",
     )
 
 
-def scaled_derivative(grounds: Grounds) -> Proof:
+def scaled_derivative(grounds: Grounds[Configuration]) -> Proof:
     """Eqs. 10 and 11: the matrix differentiates by tau, so that 2 / (tf - t0) is missing."""
-    duration = grounds.config["slew"]["manoeuvre"]["duration_s"]
+    duration = grounds.section.manoeuvre.duration_s
     points, _ = legendre_gauss(NODES)
     matrix = differentiation_matrix(points)
     time = duration * (np.r_[-1.0, points] + 1.0) / 2.0
@@ -180,11 +181,11 @@ def weight_argument(grounds: Grounds) -> Proof:
     )
 
 
-def gradient_axis(grounds: Grounds) -> Proof:
+def gradient_axis(grounds: Grounds[Configuration]) -> Proof:
     """Eq. 27 holds for a position along the first inertial axis only."""
-    given = parameters(grounds.config["slew"])
-    r, v = given.state
-    duration = grounds.config["slew"]["manoeuvre"]["duration_s"]
+    parameters = Parameters.from_section(grounds.section)
+    r, v = parameters.state
+    duration = grounds.section.manoeuvre.duration_s
     rate = np.linalg.norm(v) / np.linalg.norm(r)
     angle = rate * duration
     q = Rotation.from_euler("ZYX", [0.7, 0.4, 0.2]).as_quat()
@@ -195,12 +196,12 @@ def gradient_axis(grounds: Grounds) -> Proof:
         q1, q2, q3, q4 = q
         a = 2 * q4**2 + 2 * q1**2 - 1
         b, c = 2 * q2 * q1 - 2 * q4 * q3, 2 * q3 * q1 + 2 * q4 * q2
-        ixx, iyy, izz = np.diag(given.inertia)
-        factor = 3.0 * given.gravity.mu / length**3
+        ixx, iyy, izz = np.diag(parameters.inertia)
+        factor = 3.0 * parameters.gravity.mu / length**3
         return factor * np.array([(izz - iyy) * b * c, (ixx - izz) * c * a, (iyy - ixx) * b * a])
 
     def general(position: np.ndarray) -> np.ndarray:
-        return np.array(gravity_gradient(given.inertia, dcm @ position, given.gravity.mu))
+        return np.array(gravity_gradient(parameters.inertia, dcm @ position, parameters.gravity.mu))
 
     along = general(np.array([length, 0.0, 0.0]))
     moved = general(length * np.array([np.cos(angle), np.sin(angle), 0.0]))
@@ -217,12 +218,12 @@ def gradient_axis(grounds: Grounds) -> Proof:
     )
 
 
-def mean_motion(grounds: Grounds) -> Proof:
+def mean_motion(grounds: Grounds[Configuration]) -> Proof:
     """Section V.D: mu / r^3 is the square of the mean motion."""
-    given = parameters(grounds.config["slew"])
-    a = given.orbit.semi_major_axis
-    motion = np.sqrt(given.gravity.mu / a**3)
-    torque = given.gravity.mu / a**3
+    parameters = Parameters.from_section(grounds.section)
+    a = parameters.orbit.semi_major_axis
+    motion = np.sqrt(parameters.gravity.mu / a**3)
+    torque = parameters.gravity.mu / a**3
     return Proof(
         np.isclose(motion**2, torque) and not np.isclose(motion, torque, rtol=0.5),
         f"mu / r^3 = {torque:.3e} 1/s^2 approximated by {motion:.3e} 1/s",

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.dynamics.attitude.quaternions import roll_pitch_yaw
 from smallsat.dynamics.orbits.kepler_orbits import period
 from smallsat.dynamics.units import KM, MINUTE
 from smallsat.evidence.ledger import Ledger
 from smallsat.evidence.observation import Observation
 from smallsat.results import read_table
+from smallsat.studies.slew.configuration import Configuration
 from smallsat.studies.slew.methods.bound import plan_names
 from smallsat.studies.slew.methods.environment_study import crossover_km
 from smallsat.studies.slew.model.simulation import angles_deg, usage_pct
@@ -30,27 +30,27 @@ MESHES = ("segments", "one segment")
 
 
 def observations(
-    section: Config, given: Parameters, results: Path, ledger: Ledger
+    section: Configuration, parameters: Parameters, results: Path, ledger: Ledger
 ) -> list[Observation]:
     """All observations, from the study's result tables."""
     # The yaw error that "comparable" is measured by, deg.
     comparable = ledger.value("section-vi-b/yaw-pointing-error/180-deg-torque-optimal").value
     return [
-        *_orbit(given, results),
-        *_durations(given, results),
-        *_eigenaxis(given, results, comparable),
-        *_torque_optimal(given, results),
+        *_orbit(parameters, results),
+        *_durations(parameters, results),
+        *_eigenaxis(parameters, results, comparable),
+        *_torque_optimal(parameters, results),
         *_crossover(section, results),
     ]
 
 
-def _orbit(given: Parameters, results: Path) -> Iterator[Observation]:
-    a, e = given.orbit.semi_major_axis, given.orbit.eccentricity
-    radius = given.gravity.radius
+def _orbit(parameters: Parameters, results: Path) -> Iterator[Observation]:
+    a, e = parameters.orbit.semi_major_axis, parameters.orbit.eccentricity
+    radius = parameters.gravity.radius
     where = "slew/section-v-f/orbit"
     yield Observation(f"{where}-perigee-altitude", (a * (1.0 - e) - radius) / KM)
     yield Observation(f"{where}-apogee-altitude", (a * (1.0 + e) - radius) / KM)
-    yield Observation(f"{where}-period", period(a, given.gravity.mu) / MINUTE)
+    yield Observation(f"{where}-period", period(a, parameters.gravity.mu) / MINUTE)
     table = read_table(results / "orbit.csv")
     rows = table[(table["gravity"] == "J2") & (table["integrator"] == "order 8")]
     # The last one is what follows from the elements; the printed start is a rounded one.
@@ -62,16 +62,16 @@ def _orbit(given: Parameters, results: Path) -> Iterator[Observation]:
             yield Observation(f"slew/table-2/v-f/{axis}", row[f"v{axis}_km_s"], run)
 
 
-def scaled_durations(given: Parameters, results: Path) -> pd.DataFrame:
+def scaled_durations(parameters: Parameters, results: Path) -> pd.DataFrame:
     """Eq. 30 for the smallest and largest moment of inertia: one row a line of Table 3."""
     times = read_table(results / "minimum-times.csv").set_index("case")["duration_s"]
-    scales = np.sqrt(np.linalg.eigvalsh(given.inertia)[[0, 2]] / given.torque)
+    scales = np.sqrt(np.linalg.eigvalsh(parameters.inertia)[[0, 2]] / parameters.torque)
     rows = []
     for case, turn in TURNS.items():
         # Full torque forth and back about one axis.
-        angle = np.radians(given.angle_deg(case))
+        angle = np.radians(parameters.angle_deg(case))
         rows.append((f"{turn}-eigenaxis", 2.0 * np.sqrt(angle)))
-        rows.append((f"{turn}-time-optimal", float(times[f"benchmark, {given.names[case]}"])))
+        rows.append((f"{turn}-time-optimal", float(times[f"benchmark, {parameters.names[case]}"])))
     return pd.DataFrame(
         [
             {"case": case, "t_hat": t, "t_min": t * scales[0], "t_max": t * scales[1]}
@@ -80,22 +80,24 @@ def scaled_durations(given: Parameters, results: Path) -> pd.DataFrame:
     )
 
 
-def _durations(given: Parameters, results: Path) -> Iterator[Observation]:
-    for row in scaled_durations(given, results).to_dict("records"):
+def _durations(parameters: Parameters, results: Path) -> Iterator[Observation]:
+    for row in scaled_durations(parameters, results).to_dict("records"):
         note = NO_LEAST_TIME if np.isnan(row["t_hat"]) else ""
         yield Observation(f"slew/table-3/t-min/{row['case']}", row["t_min"], note=note)
         yield Observation(f"slew/table-3/t-max/{row['case']}", row["t_max"], note=note)
 
 
-def _eigenaxis(given: Parameters, results: Path, comparable: float) -> Iterator[Observation]:
+def _eigenaxis(parameters: Parameters, results: Path, comparable: float) -> Iterator[Observation]:
     flights = read_table(results / "flights.parquet")
     for case, turn in TURNS.items():
         flown = flights[flights["flight"] == f"eigenaxis {case}"]
         roll, pitch, yaw = angles_deg(flown.tail(1))[0]
-        _, momentum = usage_pct(flown, given)
+        _, momentum = usage_pct(flown, parameters)
         where, name = "slew/section-vi-a", f"{turn}-eigenaxis"
         yield Observation(f"{where}/final-yaw-angle/{name}", yaw)
-        yield Observation(f"{where}/yaw-undershoot/{name}", short_of(yaw, target_yaw(given, case)))
+        yield Observation(
+            f"{where}/yaw-undershoot/{name}", short_of(yaw, target_yaw(parameters, case))
+        )
         yield Observation(f"{where}/roll-angle/{name}", roll)
         yield Observation(f"{where}/pitch-angle/{name}", pitch)
         rate = float(np.degrees(flown["omega_z"].iloc[-1]))
@@ -106,14 +108,14 @@ def _eigenaxis(given: Parameters, results: Path, comparable: float) -> Iterator[
         settled = flights[flights["flight"] == f"eigenaxis {case}, no time limit"]
         yield Observation(
             f"slew/section-vi-b/eigenaxis-time-for-comparable-yaw-and-rates/{turn}-no-time-limit",
-            time := comparable_time(settled, target_yaw(given, case), comparable),
+            time := comparable_time(settled, target_yaw(parameters, case), comparable),
             note="not within the printed error when the flight ends" if np.isnan(time) else "",
         )
 
 
-def target_yaw(given: Parameters, case: str) -> float:
+def target_yaw(parameters: Parameters, case: str) -> float:
     """Yaw of a turn's target, deg."""
-    return float(np.degrees(roll_pitch_yaw(tuple(given.targets[case]))[2]))
+    return float(np.degrees(roll_pitch_yaw(tuple(parameters.targets[case]))[2]))
 
 
 def short_of(angle: float, target: float) -> float:
@@ -132,18 +134,18 @@ def comparable_time(flown: pd.DataFrame, target: float, within: float) -> float:
     return float(flown["time_s"].to_numpy()[since]) if since < len(flown) else nan
 
 
-def _torque_optimal(given: Parameters, results: Path) -> Iterator[Observation]:
+def _torque_optimal(parameters: Parameters, results: Path) -> Iterator[Observation]:
     replays = read_table(results / "replays.parquet")
     for case, turn in TURNS.items():
-        target = target_yaw(given, case)
+        target = target_yaw(parameters, case)
         for kind in MESHES:
-            plan, flown = chosen_plan(replays, "flight", given, case, kind)
-            for observed in _flown_plan(flown, given, f"{turn}-torque-optimal", target):
+            plan, flown = chosen_plan(replays, "flight", parameters, case, kind)
+            for observed in _flown_plan(flown, parameters, f"{turn}-torque-optimal", target):
                 yield replace(observed, run=plan, note="" if len(flown) else NO_PLAN)
 
 
 def _flown_plan(
-    flown: pd.DataFrame, given: Parameters, name: str, target: float
+    flown: pd.DataFrame, parameters: Parameters, name: str, target: float
 ) -> Iterator[Observation]:
     """End and peaks of a flight; not a number where there is none."""
     where = "slew/section-vi-b"
@@ -151,7 +153,7 @@ def _flown_plan(
     if len(flown):
         angles = angles_deg(flown.tail(1))[0]
         rates = np.abs(np.degrees(flown[RATES].to_numpy()[-1]))
-        _, momentum = usage_pct(flown, given)
+        _, momentum = usage_pct(flown, parameters)
     roll, pitch, yaw = angles
     yield Observation(f"{where}/final-yaw-angle/{name}", yaw)
     yield Observation(f"{where}/final-roll-angle/{name}", roll)
@@ -167,19 +169,19 @@ def _flown_plan(
 
 
 def chosen_plan(
-    table: pd.DataFrame, column: str, given: Parameters, case: str, kind: str
+    table: pd.DataFrame, column: str, parameters: Parameters, case: str, kind: str
 ) -> tuple[str, pd.DataFrame]:
     """The plan of a turn on a mesh that a table has: its name and rows, of least torque first."""
-    for name in plan_names(given, case, kind):
+    for name in plan_names(parameters, case, kind):
         rows = table[table[column] == name]
         if len(rows):
             break
     return name, rows
 
 
-def _crossover(section: Config, results: Path) -> Iterator[Observation]:
+def _crossover(section: Configuration, results: Path) -> Iterator[Observation]:
     table = read_table(results / "environment.csv")
-    offset = max(section["environment"]["offsets_mm"])
+    offset = max(section.environment.offsets_mm)
     yield Observation(
         "slew/section-v-c/altitude-above-which-gravity-gradient-dominates/environment-torque-study",
         crossing := crossover_km(table, offset),
@@ -188,13 +190,13 @@ def _crossover(section: Config, results: Path) -> Iterator[Observation]:
     )
 
 
-def timings(given: Parameters, results: Path) -> pd.DataFrame:
+def timings(parameters: Parameters, results: Path) -> pd.DataFrame:
     """Our seconds for the printed ones: columns id and seconds."""
     seconds = read_table(results / "plan-seconds.csv")
     propagator = float(seconds["seconds"].iloc[-1])
     rows = []
     for case, turn in TURNS.items():
-        _, solved = chosen_plan(seconds, "plan", given, case, MESHES[-1])
+        _, solved = chosen_plan(seconds, "plan", parameters, case, MESHES[-1])
         guidance = float(solved["seconds"].iloc[0])
         for processor in ("i7-2700k", "core2duo-t7700"):
             for quantity, value in (

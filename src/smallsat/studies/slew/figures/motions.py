@@ -52,10 +52,10 @@ def attitude(flown: pd.DataFrame, title: str = "") -> Drawing:
     return _titled(figure, (left, right), title), data
 
 
-def usage(flown: pd.DataFrame, given: Parameters, title: str = "") -> Drawing:
+def usage(flown: pd.DataFrame, parameters: Parameters, title: str = "") -> Drawing:
     """Torque and momentum of each wheel in percent of its limit."""
     rows = flown.iloc[::THINNED]
-    torque, momentum = usage_pct(rows, given)
+    torque, momentum = usage_pct(rows, parameters)
     data = pd.DataFrame({"time_s": rows["time_s"].to_numpy()})
     figure, (left, right) = subplots(1, 2, figsize=(6.3, 2.7))
     for panel, values, name in ((left, torque, "torque"), (right, momentum, "momentum")):
@@ -67,7 +67,7 @@ def usage(flown: pd.DataFrame, given: Parameters, title: str = "") -> Drawing:
     return _titled(figure, (left, right), title), data
 
 
-def history(plan: pd.DataFrame, given: Parameters, title: str = "") -> Drawing:
+def history(plan: pd.DataFrame, parameters: Parameters, title: str = "") -> Drawing:
     """Quaternion, rate and torque of a plan at its points."""
     figure, panels = subplots(1, 3, figsize=(6.3, 2.8))
     data = plan[["time_s", *QUATERNION]].reset_index(drop=True)
@@ -86,7 +86,7 @@ def history(plan: pd.DataFrame, given: Parameters, title: str = "") -> Drawing:
     labels = ("quaternion [-]", "rate [deg/s]", "torque [mN m]")
     for panel, label in zip(panels, labels, strict=True):
         panel.set(xlabel="time [s]", title=label)
-    panels[2].set_ylim(-1.1e3 * given.torque, 1.1e3 * given.torque)
+    panels[2].set_ylim(-1.1e3 * parameters.torque, 1.1e3 * parameters.torque)
     return _titled(figure, panels, title), data
 
 

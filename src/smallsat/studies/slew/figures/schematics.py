@@ -9,8 +9,8 @@ from matplotlib.pyplot import subplots
 from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-from smallsat.config import Config
 from smallsat.drawing.figure import Drawing
+from smallsat.studies.slew.configuration import Configuration
 from smallsat.studies.slew.parameters import panels
 
 Boxes = dict[str, tuple[float, float, str]]
@@ -20,9 +20,9 @@ WIDTH, HEIGHT = 2.5, 1.0
 LABELS = ("starboard", "fore", "zenith", "port", "aft", "nadir")
 
 
-def guidance_overview(section: Config) -> Drawing:
+def guidance_overview(section: Configuration) -> Drawing:
     """Figure 1: what the guidance takes in and gives out."""
-    step, rate = section["onboard"]["step_s"], section["resampling_hz"]
+    step, rate = section.onboard.step_s, section.resampling_hz
     boxes: Boxes = {
         "user": (1.6, 4.4, "user inputs\nattitudes, nodes, time,\ntorque limits, guess"),
         "onboard": (1.6, 1.4, f"on-board propagator\n$J_2$ orbit, step {step:g} s"),
@@ -39,9 +39,9 @@ def guidance_overview(section: Config) -> Drawing:
     return _diagram(boxes, arrows, (10.8, 5.8), (6.3, 3.0))
 
 
-def onboard_propagator(section: Config) -> Drawing:
+def onboard_propagator(section: Configuration) -> Drawing:
     """Figure 17: the on-board propagator."""
-    step = section["onboard"]["step_s"]
+    step = section.onboard.step_s
     boxes: Boxes = {
         "elements": (1.6, 4.4, "Keplerian elements\nto state"),
         "gravity": (5.4, 4.4, "gravity with $J_2$"),
@@ -61,9 +61,9 @@ def onboard_propagator(section: Config) -> Drawing:
     return _diagram(boxes, arrows, (10.8, 5.8), (6.3, 3.0))
 
 
-def fuller_model(section: Config) -> Drawing:
+def fuller_model(section: Configuration) -> Drawing:
     """Figure 18: the fuller model in which plans are flown."""
-    rate, step = section["resampling_hz"], section["numerics"]["step_s"]
+    rate, step = section.resampling_hz, section.numerics.step_s
     boxes: Boxes = {
         "profile": (1.6, 4.4, f"torque profile\n{rate:g} Hz, linear"),
         "wheels": (5.4, 4.4, "wheels: torque and\nmomentum limits"),
@@ -82,11 +82,11 @@ def fuller_model(section: Config) -> Drawing:
     return _diagram(boxes, arrows, (10.8, 5.8), (6.3, 3.0))
 
 
-def spacecraft(section: Config) -> Drawing:
+def spacecraft(section: Configuration) -> Drawing:
     """Figure 19: the body to scale, its panels and axes; the booms are not to scale."""
-    table = panels(section)
-    size = section["spacecraft"]["size_m"]
-    sides = np.array([size["breadth"], size["length"], size["height"]])
+    table = panels(section.spacecraft)
+    size = section.spacecraft.size_m
+    sides = np.array([size.breadth, size.length, size.height])
     figure = new_figure(figsize=(5.2, 3.9))
     figure.set_layout_engine("none")
     axes: Axes3D = figure.add_axes((0.0, 0.0, 1.0, 1.0), projection="3d", computed_zorder=False)

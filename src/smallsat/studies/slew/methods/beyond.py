@@ -5,10 +5,10 @@ from math import nan
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.dynamics.attitude.quaternions import error_quaternion, turn_angle
 from smallsat.evidence.not_converged import NotConverged
 from smallsat.optimal_control.gauss_pseudospectral import Mesh
+from smallsat.studies.slew.configuration import Configuration
 from smallsat.studies.slew.methods.flights import controller
 from smallsat.studies.slew.methods.guidance_problem import tilts
 from smallsat.studies.slew.methods.minimum_time import eigenaxis_time, fastest, guess, not_found
@@ -32,31 +32,31 @@ TORQUE = ["u_x", "u_y", "u_z"]
 SLACK = 1.1
 
 
-def half_mesh(section: Config) -> Mesh:
+def half_mesh(section: Configuration) -> Mesh:
     """Segments of the 180 deg turn."""
-    entry = section["manoeuvre"]["half"]
-    return Mesh(entry["segments"], entry["segment_nodes"])
+    entry = section.manoeuvre.half
+    return Mesh(entry.segments, entry.segment_nodes)
 
 
 Tables = tuple[dict[str, pd.DataFrame], list[NotConverged]]
 
 
-def trade_off(section: Config, given: Parameters) -> Tables:
+def trade_off(section: Configuration, parameters: Parameters) -> Tables:
     """Minimum-torque plans of the larger turn for longer times; those that did not converge."""
-    model = guidance_model(given)
+    model = guidance_model(parameters)
     rows, tables, seconds = [], [], []
     missing: list[NotConverged] = []
-    for duration in section["beyond"]["trade_off_s"]:
-        name = f"{given.names['half']}, {duration:g} s"
+    for duration in section.beyond.trade_off_s:
+        name = f"{parameters.names['half']}, {duration:g} s"
         result, starts = best_plan(
-            model, given, "half", duration, half_mesh(section), section, SWEEP_STARTS
+            model, parameters, "half", duration, half_mesh(section), section.numerics, SWEEP_STARTS
         )
         missing += unsolved(f"trade-off, {name}", result, f"{len(starts)} starts")
         held, failed = held_if_converged(
-            model, given, "half", f"trade-off, {name}", result, section
+            model, parameters, "half", f"trade-off, {name}", result, section.numerics
         )
         missing += failed
-        rows.append(summary(model, given, name, result, starts, held))
+        rows.append(summary(model, parameters, name, result, starts, held))
         rows[-1]["held_converged"] = bool(held and held.solution.converged)
         if held and held.solution.converged:
             tables.append(held_table(model, held, name))
@@ -68,34 +68,34 @@ def trade_off(section: Config, given: Parameters) -> Tables:
     }, missing
 
 
-def degradation(section: Config, given: Parameters) -> Tables:
+def degradation(section: Configuration, parameters: Parameters) -> Tables:
     """Least time of the larger turn, and least torque in a tenth more, over the wheels' torque."""
-    wheels, target = section["wheels"], given.targets["half"]
-    healthy = wheels["torque_mN_m"] * MILLI / (wheels["torque_share_pct"] / 100.0)
-    known = wheels["torque_share_pct"]
-    axis = given.axis("half")
+    wheels, target = section.wheels, parameters.targets["half"]
+    healthy = wheels.torque_mN_m * MILLI / (wheels.torque_share_pct / 100.0)
+    known = wheels.torque_share_pct
+    axis = parameters.axis("half")
     rows = []
     missing: list[NotConverged] = []
-    for share in section["beyond"]["torque_shares_pct"]:
+    for share in section.beyond.torque_shares_pct:
         torque = healthy * share / 100.0
         # Without other torques, times go with the root of the torque; a guess, nothing more. Where
         # the wheels fill, they go slower than that.
-        about = guess(given, "half") * np.sqrt(known / share)
+        about = guess(parameters, "half") * np.sqrt(known / share)
         alone = eigenaxis_time(
-            np.radians(given.angle_deg("half")),
-            float(axis @ given.inertia @ axis),
+            np.radians(parameters.angle_deg("half")),
+            float(axis @ parameters.inertia @ axis),
             torque,
-            given.momentum,
+            parameters.momentum,
         )
-        model = guidance_model(given, torque, about)
+        model = guidance_model(parameters, torque, about)
         found = fastest(
             model,
-            given.initial,
+            parameters.initial,
             target,
             about,
             (0.5 * about, max(2.0 * about, 1.5 * alone)),
             half_mesh(section),
-            tilts(SWEEP_STARTS, section["numerics"]["seed"]),
+            tilts(SWEEP_STARTS, section.numerics.seed),
         )
         row = {
             "torque_share_pct": share,
@@ -113,14 +113,16 @@ def degradation(section: Config, given: Parameters) -> Tables:
         if found.collocated.solution.converged:
             plan, starts = best_plan(
                 model,
-                given,
+                parameters,
                 "half",
                 SLACK * (found.duration if found.converged else found.collocated.duration),
                 half_mesh(section),
-                section,
+                section.numerics,
                 SWEEP_STARTS,
             )
-            peaks = np.abs(plan.plan.states[:, 7:]).max() * model.momentum_unit / given.momentum
+            peaks = (
+                np.abs(plan.plan.states[:, 7:]).max() * model.momentum_unit / parameters.momentum
+            )
             row |= {
                 "plan_time_s": plan.duration,
                 "plan_converged": plan.solution.converged,
@@ -137,42 +139,44 @@ def degradation(section: Config, given: Parameters) -> Tables:
     return {"degradation": pd.DataFrame(rows)}, missing
 
 
-def tracking(section: Config, given: Parameters) -> Tables:
+def tracking(section: Configuration, parameters: Parameters) -> Tables:
     """The optimal plan followed in closed loop, beside open loop and the eigenaxis law.
 
     The plan leaves a margin of torque to the controller. Flown in the fuller model with and without
     an error of the inertia; drag is on.
     """
-    entry = section["beyond"]["tracking"]
-    margin = 1.0 - entry["torque_margin_pct"] / 100.0
-    model = guidance_model(given, margin * given.torque)
-    manoeuvre = section["manoeuvre"]
+    entry = section.beyond.tracking
+    margin = 1.0 - entry.torque_margin_pct / 100.0
+    model = guidance_model(parameters, margin * parameters.torque)
+    manoeuvre = section.manoeuvre
     turns = {
-        given.names["quarter"]: ("quarter", given.duration),
-        given.names["half"]: ("half", max(section["beyond"]["trade_off_s"])),
+        parameters.names["quarter"]: ("quarter", parameters.duration),
+        parameters.names["half"]: ("half", max(section.beyond.trade_off_s)),
     }
     rows, tables = [], []
     missing: list[NotConverged] = []
     for turn, (case, duration) in turns.items():
-        mesh = Mesh(manoeuvre[case]["segments"], manoeuvre[case]["segment_nodes"])
+        mesh = Mesh(manoeuvre[case].segments, manoeuvre[case].segment_nodes)
         name = f"plan to follow, {turn} in {duration:g} s"
-        result, starts = best_plan(model, given, case, duration, mesh, section, SWEEP_STARTS)
+        result, starts = best_plan(
+            model, parameters, case, duration, mesh, section.numerics, SWEEP_STARTS
+        )
         missing += unsolved(name, result, f"{len(starts)} starts")
-        held, failed = held_if_converged(model, given, case, name, result, section)
+        held, failed = held_if_converged(model, parameters, case, name, result, section.numerics)
         missing += failed
         plan = None
         if held and held.solution.converged:
             plan = _sampled(held_table(model, held, turn), section, duration)
-        for error in (0.0, section["beyond"]["inertia_error_pct"]):
-            real = plant(given, inertia_factor=1.0 + error / 100.0)
-            step = 1.0 / section["resampling_hz"]
+        for error in (0.0, section.beyond.inertia_error_pct):
+            real = plant(parameters, inertia_factor=1.0 + error / 100.0)
+            step = 1.0 / section.resampling_hz
             commands: dict[str, Command] = {}
             if plan is not None:
-                commands["open loop"] = open_loop(given, step, plan[:, :3])
-                commands["closed loop on the plan"] = _tracking(section, given, step, plan)
-            commands["eigenaxis law"] = controller(section, given, case)
+                commands["open loop"] = open_loop(parameters, step, plan[:, :3])
+                commands["closed loop on the plan"] = _tracking(section, parameters, step, plan)
+            commands["eigenaxis law"] = controller(section.controller, parameters, case)
             for name, command in commands.items():
-                row, flown = _simulate(section, given, real, command, case, duration)
+                row, flown = _simulate(section, parameters, real, command, case, duration)
                 rows.append(
                     {
                         "turn": turn,
@@ -189,9 +193,9 @@ def tracking(section: Config, given: Parameters) -> Tables:
     }, missing
 
 
-def _sampled(table: pd.DataFrame, section: Config, duration: float) -> np.ndarray:
+def _sampled(table: pd.DataFrame, section: Configuration, duration: float) -> np.ndarray:
     """A held plan at the resampling rate, shape (n, 10): torque, quaternion, rate."""
-    at = np.arange(round(duration * section["resampling_hz"]) + 1) / section["resampling_hz"]
+    at = np.arange(round(duration * section.resampling_hz) + 1) / section.resampling_hz
     times = table["time_s"].to_numpy()
     # The torque of a piece holds from its start to its end.
     piece = np.clip(np.searchsorted(times, at, side="right") - 1, 0, len(times) - 2)
@@ -200,17 +204,19 @@ def _sampled(table: pd.DataFrame, section: Config, duration: float) -> np.ndarra
     )
 
 
-def _tracking(section: Config, given: Parameters, step: float, plan: np.ndarray) -> Command:
-    entry = section["beyond"]["tracking"]
-    wn, zeta = entry["natural_frequency_rad_s"], entry["damping_ratio"]
+def _tracking(
+    section: Configuration, parameters: Parameters, step: float, plan: np.ndarray
+) -> Command:
+    entry = section.beyond.tracking
+    wn, zeta = entry.natural_frequency_rad_s, entry.damping_ratio
     # A small turn's error has twice its vector part as angle: stiffness 2 wn^2 makes it wn^2.
     return Command(
         TRACKING,
         2.0 * wn * wn,
         2.0 * zeta * wn,
-        2.0 * wn * wn * entry["integral_per_s"],
-        given.inertia,
-        given.initial,
+        2.0 * wn * wn * entry.integral_per_s,
+        parameters.inertia,
+        parameters.initial,
         0,
         step,
         plan,
@@ -218,16 +224,21 @@ def _tracking(section: Config, given: Parameters, step: float, plan: np.ndarray)
 
 
 def _simulate(
-    section: Config, given: Parameters, real: Plant, command: Command, case: str, duration: float
+    section: Configuration,
+    parameters: Parameters,
+    real: Plant,
+    command: Command,
+    case: str,
+    duration: float,
 ) -> tuple[dict, pd.DataFrame]:
-    flown = run(given, real, command, duration, section["numerics"]["step_s"])
-    target = tuple(given.targets[case])
+    flown = run(parameters, real, command, duration, section.numerics.step_s)
+    target = tuple(parameters.targets[case])
     error = np.degrees(
         [turn_angle(error_quaternion(tuple(q), target)) for q in flown[STATE[:4]].to_numpy()]
     )
     torque = np.linalg.norm(flown[TORQUE], axis=1)
     rate = np.degrees(np.linalg.norm(flown[STATE[4:]].to_numpy()[-1]))
-    momentum = np.abs(flown[["h_x", "h_y", "h_z"]].to_numpy()).max() / given.momentum
+    momentum = np.abs(flown[["h_x", "h_y", "h_z"]].to_numpy()).max() / parameters.momentum
     return (
         {
             "pointing_error_deg": float(error[-1]),

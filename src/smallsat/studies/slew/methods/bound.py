@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from smallsat.config import Config
 from smallsat.dynamics.attitude.quaternions import quaternion_to_dcm
-from smallsat.studies.slew.parameters import Parameters, parameters
+from smallsat.studies.slew.configuration import Configuration
+from smallsat.studies.slew.parameters import Parameters
 
 
 def reach(
@@ -45,38 +45,39 @@ def reach(
     return float(np.sum(np.maximum(speed[1:], speed[:-1]) * np.diff(time)))
 
 
-def largest_disturbance(given: Parameters, duration: float) -> float:
+def largest_disturbance(parameters: Parameters, duration: float) -> float:
     """Angular momentum, N m s, that the gravity gradient can give at most in a time, any attitude.
 
     The torque is 3 mu / r^3 times e x J e, which is at most half the difference of the extreme
     moments for any unit vector e, taken at perigee.
     """
-    moments = np.linalg.eigvalsh(given.inertia)
-    perigee = given.orbit.semi_major_axis * (1.0 - given.orbit.eccentricity)
-    return float(1.5 * given.gravity.mu / perigee**3 * (moments[2] - moments[0]) * duration)
+    moments = np.linalg.eigvalsh(parameters.inertia)
+    perigee = parameters.orbit.semi_major_axis * (1.0 - parameters.orbit.eccentricity)
+    return float(1.5 * parameters.gravity.mu / perigee**3 * (moments[2] - moments[0]) * duration)
 
 
-def needed(given: Parameters, case: str) -> float:
+def needed(parameters: Parameters, case: str) -> float:
     """Angle, rad, between the body's x axis at the start and at the end of a turn."""
     before, after = (
-        np.array(quaternion_to_dcm(tuple(q)))[0] for q in (given.initial, given.targets[case])
+        np.array(quaternion_to_dcm(tuple(q)))[0]
+        for q in (parameters.initial, parameters.targets[case])
     )
     return float(np.arctan2(np.linalg.norm(np.cross(before, after)), before @ after))
 
 
-def impossible(given: Parameters, case: str, duration: float, gradient: bool = True) -> bool:
+def impossible(parameters: Parameters, case: str, duration: float, gradient: bool = True) -> bool:
     """Whether no plan makes a turn from rest to rest in a time, s, with or without the gradient."""
-    disturbance = largest_disturbance(given, duration) if gradient else 0.0
-    path = reach(given.inertia, given.torque, duration, disturbance=disturbance)
-    return path < needed(given, case)
+    disturbance = largest_disturbance(parameters, duration) if gradient else 0.0
+    path = reach(parameters.inertia, parameters.torque, duration, disturbance=disturbance)
+    return path < needed(parameters, case)
 
 
-def bound_time(given: Parameters, gradient: bool, case: str = "half") -> float:
+def bound_time(parameters: Parameters, gradient: bool, case: str = "half") -> float:
     """Time, s, below which no plan makes a turn from rest to rest; 0 where the bound says nothing.
 
     Parameters
     ----------
-    given
+    parameters
         The study's parameters.
     gradient
         Whether the gravity gradient acts.
@@ -84,35 +85,35 @@ def bound_time(given: Parameters, gradient: bool, case: str = "half") -> float:
         The turn.
     """
     low, high = 1.0, 1000.0
-    if not impossible(given, case, low, gradient):
+    if not impossible(parameters, case, low, gradient):
         return 0.0
-    while impossible(given, case, high, gradient):
+    while impossible(parameters, case, high, gradient):
         low, high = high, 2.0 * high
     while high - low > 1e-6:
         middle = 0.5 * (low + high)
-        if impossible(given, case, middle, gradient):
+        if impossible(parameters, case, middle, gradient):
             low = middle
         else:
             high = middle
     return low
 
 
-def plan_names(given: Parameters, case: str, kind: str) -> tuple[str, str]:
+def plan_names(parameters: Parameters, case: str, kind: str) -> tuple[str, str]:
     """What the plan of a turn is called on a mesh: of least torque, and the least infeasible."""
-    name = given.names[case]
+    name = parameters.names[case]
     return f"{name}, {kind}", f"{name}, least infeasible, {kind}"
 
 
-def plan_titles(section: Config, case: str) -> dict[str, str]:
+def plan_titles(section: Configuration, case: str) -> dict[str, str]:
     """Titles of the figures of a turn's plan on the document's mesh, by the plan's name."""
-    given = parameters(section)
+    parameters = Parameters.from_section(section)
     why = (
         "the target cannot be reached"
-        if impossible(given, case, given.duration)
+        if impossible(parameters, case, parameters.duration)
         else "no plan was found that reaches the target"
     )
-    feasible, least = plan_names(given, case, "one segment")
+    feasible, least = plan_names(parameters, case, "one segment")
     return {
         feasible: "",
-        least: f"least infeasible plan: {why} from rest to rest in {given.duration:g} s",
+        least: f"least infeasible plan: {why} from rest to rest in {parameters.duration:g} s",
     }

@@ -48,7 +48,7 @@ def axis_turn(
     final angle and rate, rad and rad/s, and the largest and final momentum given by the wheel, over
     the moment of inertia, rad/s.
     """
-    angle = rate = given = peak = held = 0.0
+    angle = rate = parameters = peak = held = 0.0
     steps = round(duration / step)
     every = max(1, round(hold / step))
     for k in range(steps):
@@ -64,9 +64,9 @@ def axis_turn(
             mean = 0.5 * (held + ahead)
         angle += step * rate + 0.5 * step * step * (mean + outer)
         rate += step * (mean + outer)
-        given += step * mean
-        peak = max(peak, abs(given))
-    return angle, rate, peak, given
+        parameters += step * mean
+        peak = max(peak, abs(parameters))
+    return angle, rate, peak, parameters
 
 
 @compiled
@@ -81,12 +81,12 @@ def _law(error, rate, stiffness, damping, law, acceleration):
 
 
 def values(
-    given: Parameters, case: str, wn: float, zeta: float, law: int, hold: float
+    parameters: Parameters, case: str, wn: float, zeta: float, law: int, hold: float
 ) -> np.ndarray:
     """Yaw (deg), rate (deg/s), peak and final momentum (%) of a controller, shape (4,)."""
-    first, second, moment = np.diag(given.inertia)
+    first, second, moment = np.diag(parameters.inertia)
     target = np.pi / 2.0 if case == "quarter" else np.pi
-    r, v = given.state
+    r, v = parameters.state
     radius = float(np.linalg.norm(r))
     angle, rate, peak, final = axis_turn(
         target,
@@ -94,13 +94,13 @@ def values(
         2.0 * zeta * wn,
         law,
         hold,
-        given.torque / moment,
-        1.5 * given.gravity.mu / radius**3 * (second - first) / moment,
+        parameters.torque / moment,
+        1.5 * parameters.gravity.mu / radius**3 * (second - first) / moment,
         float(np.linalg.norm(v)) / radius,
-        given.duration,
+        parameters.duration,
         STEP,
     )
-    share = 100.0 * moment / given.momentum
+    share = 100.0 * moment / parameters.momentum
     return np.array([np.degrees(angle), np.degrees(rate), share * peak, share * final])
 
 
@@ -111,14 +111,14 @@ def printed_values(ledger: Ledger) -> np.ndarray:
 
 
 def misses(
-    given: Parameters, printed: np.ndarray, wn: float, zeta: float, law: int, hold: float
+    parameters: Parameters, printed: np.ndarray, wn: float, zeta: float, law: int, hold: float
 ) -> np.ndarray:
     """Differences from `printed_values` in half units of their last digits, shape (8,)."""
-    found = np.concatenate([values(given, case, wn, zeta, law, hold) for case in TURNS])
+    found = np.concatenate([values(parameters, case, wn, zeta, law, hold) for case in TURNS])
     return (found - printed[:, 0]) / printed[:, 1]
 
 
-def search(given: Parameters, printed: np.ndarray) -> pd.DataFrame:
+def search(parameters: Parameters, printed: np.ndarray) -> pd.DataFrame:
     """For each law and hold: the controller that comes nearest to the printed values.
 
     Three questions a row: all values but the 38.9 %; all values of 90 deg with it; all of both
@@ -135,18 +135,19 @@ def search(given: Parameters, printed: np.ndarray) -> pd.DataFrame:
     rows = []
     for (law, name), hold in product(enumerate(LAWS), HOLDS_S):
         grid = {
-            (wn, zeta): np.abs(misses(given, printed, wn, zeta, law, hold))
+            (wn, zeta): np.abs(misses(parameters, printed, wn, zeta, law, hold))
             for wn, zeta in [*product(frequencies, dampings), DOCUMENT]
         }
         for question, index in chosen.items():
             starts = sorted(grid, key=lambda key: float(grid[key][index].max()))[:STARTS]
             wn, zeta = min(
-                (_refined(given, printed, *start, law, hold, index) for start in starts),
+                (_refined(parameters, printed, *start, law, hold, index) for start in starts),
                 key=lambda gains: float(
-                    np.abs(misses(given, printed, gains[0], gains[1], law, hold))[index].max()
+                    np.abs(misses(parameters, printed, gains[0], gains[1], law, hold))[index].max()
                 ),
             )
-            quarter, half = (values(given, case, wn, zeta, law, hold) for case in TURNS)
+            quarter, half = (values(parameters, case, wn, zeta, law, hold) for case in TURNS)
+            worst = np.abs(misses(parameters, printed, wn, zeta, law, hold))[index].max()
             rows.append(
                 {
                     "feedback": name,
@@ -154,9 +155,7 @@ def search(given: Parameters, printed: np.ndarray) -> pd.DataFrame:
                     "fitted": question,
                     "frequency_rad_s": float(f"{wn:.4g}"),
                     "damping_ratio": float(f"{zeta:.4g}"),
-                    "worst_miss_half_units": float(
-                        f"{np.abs(misses(given, printed, wn, zeta, law, hold))[index].max():.2g}"
-                    ),
+                    "worst_miss_half_units": float(f"{worst:.2g}"),
                     "yaw_90_deg": float(f"{quarter[0]:.5g}"),
                     "peak_90_pct": float(f"{quarter[2]:.4g}"),
                     "yaw_180_deg": float(f"{half[0]:.5g}"),
@@ -166,13 +165,13 @@ def search(given: Parameters, printed: np.ndarray) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def _refined(given, printed, wn, zeta, law, hold, index) -> tuple[float, float]:
+def _refined(parameters, printed, wn, zeta, law, hold, index) -> tuple[float, float]:
     """Shrinking pattern search around a grid point, on the logarithms of both gains."""
     best = np.log([wn, zeta])
 
     def worst(place: np.ndarray) -> float:
         wn, zeta = (float(np.exp(log)) for log in place)
-        return float(np.abs(misses(given, printed, wn, zeta, law, hold))[index].max())
+        return float(np.abs(misses(parameters, printed, wn, zeta, law, hold))[index].max())
 
     value, width = worst(best), np.log(FREQUENCIES[1] / FREQUENCIES[0]) / GRID
     while width > 1e-5:

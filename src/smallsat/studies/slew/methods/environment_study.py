@@ -6,33 +6,33 @@ import numpy as np
 import pandas as pd
 from scipy.spatial.transform import Rotation
 
-from smallsat.config import Config
 from smallsat.dynamics.environment.torques import ATMOSPHERE, density, gravity_gradient, panel_drag
 from smallsat.dynamics.orbits.kepler_orbits import perifocal_frame
 from smallsat.dynamics.units import DAY, KM
+from smallsat.studies.slew.configuration import Configuration
 from smallsat.studies.slew.model.simulation import EARTH_RATE
 from smallsat.studies.slew.parameters import Parameters, panels
 
 SAMPLE_S = 60.0
 
 
-def torque_table(section: Config, given: Parameters) -> pd.DataFrame:
+def torque_table(section: Configuration, parameters: Parameters) -> pd.DataFrame:
     """Mean torques, N m, on a body at rest in inertial space over the study's time.
 
     Circular orbits in the plane of the document's. One row an altitude, offset of the centre of
     pressure and factor of the density.
     """
-    entry = section["environment"]
-    roll, pitch, yaw = entry["attitude_deg"]
+    entry = section.environment
+    roll, pitch, yaw = entry.attitude_deg
     # Rows are the body axes in the inertial frame.
     dcm = Rotation.from_euler("ZYX", [yaw, pitch, roll], degrees=True).as_matrix().T
-    frame = perifocal_frame(given.orbit)
-    times = np.arange(0.0, entry["duration_days"] * DAY, SAMPLE_S)
-    by_offset = {mm: panels(section, offset=mm / KM) for mm in entry["offsets_mm"]}
+    frame = perifocal_frame(parameters.orbit)
+    times = np.arange(0.0, entry.duration_days * DAY, SAMPLE_S)
+    by_offset = {mm: panels(section.spacecraft, offset=mm / KM) for mm in entry.offsets_mm}
     rows = []
-    for altitude in entry["altitudes_km"]:
-        radius = given.gravity.radius + altitude * KM
-        rate = np.sqrt(given.gravity.mu / radius**3)
+    for altitude in entry.altitudes_km:
+        radius = parameters.gravity.radius + altitude * KM
+        rate = np.sqrt(parameters.gravity.mu / radius**3)
         gradient: list[float] = []
         drags: dict[float, list[float]] = {mm: [] for mm in by_offset}
         rho = density(altitude * KM, ATMOSPHERE)
@@ -41,13 +41,17 @@ def torque_table(section: Config, given: Parameters) -> pd.DataFrame:
             v = radius * rate * (np.cos(angle) * frame[1] - np.sin(angle) * frame[0])
             wind = dcm @ (v - np.cross([0.0, 0.0, EARTH_RATE], r))
             gradient.append(
-                float(np.linalg.norm(gravity_gradient(given.inertia, dcm @ r, given.gravity.mu)))
+                float(
+                    np.linalg.norm(
+                        gravity_gradient(parameters.inertia, dcm @ r, parameters.gravity.mu)
+                    )
+                )
             )
             for mm, shape in by_offset.items():
-                drag = panel_drag(shape, wind, rho, given.drag_coefficient)
+                drag = panel_drag(shape, wind, rho, parameters.drag_coefficient)
                 drags[mm].append(float(np.linalg.norm(drag)))
         for mm, found in drags.items():
-            for factor in entry["density_factors"]:
+            for factor in entry.density_factors:
                 rows.append(
                     {
                         "altitude_km": altitude,

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
+from smallsat.studies.slew.configuration import Configuration, Controller
 from smallsat.studies.slew.model.simulation import Command, eigenaxis, open_loop, plant, run
 from smallsat.studies.slew.parameters import Parameters
 
@@ -11,32 +11,37 @@ from smallsat.studies.slew.parameters import Parameters
 SETTLED_S = 240.0
 
 
-def controller(section: Config, given: Parameters, case: str, hold: int = 0) -> Command:
+def controller(law: Controller, parameters: Parameters, case: str, hold: int = 0) -> Command:
     """The document's eigenaxis law for a case."""
-    law = section["controller"]
     return eigenaxis(
-        given,
-        given.targets[case],
-        law["natural_frequency_rad_s"],
-        law["damping_ratio"],
+        parameters,
+        parameters.targets[case],
+        law.natural_frequency_rad_s,
+        law.damping_ratio,
         hold=hold,
     )
 
 
-def eigenaxis_flights(section: Config, given: Parameters) -> pd.DataFrame:
+def eigenaxis_flights(section: Configuration, parameters: Parameters) -> pd.DataFrame:
     """Continuous control of both turns, in the printed time and until settled."""
-    step = section["numerics"]["step_s"]
+    step = section.numerics.step_s
     tables = []
     for case in ("quarter", "half"):
-        for name, duration in (("", given.duration), (", no time limit", SETTLED_S)):
-            flown = run(given, plant(given), controller(section, given, case), duration, step)
+        for name, duration in (("", parameters.duration), (", no time limit", SETTLED_S)):
+            flown = run(
+                parameters,
+                plant(parameters),
+                controller(section.controller, parameters, case),
+                duration,
+                step,
+            )
             tables.append(flown.assign(flight=f"eigenaxis {case}{name}"))
     return pd.concat(tables, ignore_index=True)
 
 
 def replay(
-    given: Parameters, section: Config, torques: np.ndarray, duration: float
+    parameters: Parameters, section: Configuration, torques: np.ndarray, duration: float
 ) -> pd.DataFrame:
     """Torques at the resampling rate, flown in open loop in the fuller model."""
-    command = open_loop(given, 1.0 / section["resampling_hz"], torques)
-    return run(given, plant(given), command, duration, section["numerics"]["step_s"])
+    command = open_loop(parameters, 1.0 / section.resampling_hz, torques)
+    return run(parameters, plant(parameters), command, duration, section.numerics.step_s)

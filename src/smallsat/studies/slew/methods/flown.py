@@ -38,10 +38,10 @@ def propagate_held(
         def rate(t: float, y: np.ndarray, torque=torque) -> np.ndarray:
             q = tuple(y[:4])
             outer = (0.0, 0.0, 0.0)
-            if model.given is not None:
-                r = _position(model.given.orbit, model.given.gravity.mu, t)
+            if model.parameters is not None:
+                r = _position(model.parameters.orbit, model.parameters.gravity.mu, t)
                 body = np.array(quaternion_to_dcm(q)) @ r
-                outer = gravity_gradient(model.inertia, body, model.given.gravity.mu)
+                outer = gravity_gradient(model.inertia, body, model.parameters.gravity.mu)
             w = angular_acceleration(
                 model.inertia, inverse, tuple(y[4:7]), tuple(y[7:]), tuple(torque), outer, carried
             )

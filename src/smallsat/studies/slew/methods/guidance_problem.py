@@ -5,7 +5,7 @@ torque of the limit, momentum of limit times T. The state is the quaternion (4),
 T (3) and the momentum given by the wheels (3).
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -41,7 +41,7 @@ class Model:
         Unit of time, s.
     carried
         Whether the wheels' momentum takes part in the gyroscopic torque.
-    given
+    parameters
         The orbit for the gravity gradient; without it there is none.
     """
 
@@ -50,7 +50,7 @@ class Model:
     momentum: float
     unit: float
     carried: bool = True
-    given: Parameters | None = None
+    parameters: Parameters | None = None
 
     @property
     def momentum_unit(self) -> float:
@@ -65,7 +65,7 @@ class Model:
         if self.carried:
             momentum = momentum - h
         torque = u - ca.cross(w, momentum)
-        if self.given is not None:
+        if self.parameters is not None:
             torque = torque + self._gradient(q, t) / self.torque
         vector = 0.5 * (q[3] * w - ca.cross(w, q[:3]))
         acceleration = ca.mtimes(ca.DM(np.linalg.inv(scaled)), torque)
@@ -73,8 +73,8 @@ class Model:
 
     def _gradient(self, q: Any, t: Any) -> Any:
         """Gravity-gradient torque, N m, on the two-body orbit at a scaled time."""
-        assert self.given is not None
-        orbit, mu = self.given.orbit, self.given.gravity.mu
+        assert self.parameters is not None
+        orbit, mu = self.parameters.orbit, self.parameters.gravity.mu
         a, e = orbit.semi_major_axis, orbit.eccentricity
         at_start = 2.0 * np.arctan(
             np.sqrt((1.0 - e) / (1.0 + e)) * np.tan(orbit.true_anomaly / 2.0)
@@ -272,7 +272,7 @@ class Guidance:
         } | options
         self._solver = IpoptSolver(self.method.program, **settings)
 
-    def solve(self, guess: Guess | np.ndarray, smoothing: list[float]) -> Result:
+    def solve(self, guess: Guess | np.ndarray, smoothing: Sequence[float]) -> Result:
         """Solve with ever less smoothing; each stage begins where the last one ended."""
         z = guess if isinstance(guess, np.ndarray) else self.method.guess(*guess)
         seconds, iterations = 0.0, 0

@@ -6,10 +6,10 @@ from math import nan
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.evidence.not_converged import NotConverged
 from smallsat.optimal_control.gauss_pseudospectral import Mesh
 from smallsat.optimal_control.switching_times import Arcs, arcs_of, refine
+from smallsat.studies.slew.configuration import Configuration, Numerics
 from smallsat.studies.slew.methods.flown import miss, propagate_held
 from smallsat.studies.slew.methods.guidance_problem import (
     Guidance,
@@ -67,10 +67,14 @@ class LeastTime:
 
 
 def least_time(
-    model: Model, initial: np.ndarray, target: np.ndarray, about: float, mesh: Mesh, section: Config
+    model: Model,
+    initial: np.ndarray,
+    target: np.ndarray,
+    about: float,
+    mesh: Mesh,
+    numerics: Numerics,
 ) -> LeastTime:
     """Least time of a turn between two attitudes at rest; ``about`` is a guess of it, s."""
-    numerics = section["numerics"]
     return fastest(
         model,
         initial,
@@ -78,7 +82,7 @@ def least_time(
         about,
         (0.3 * about, 3.0 * about),
         mesh,
-        tilts(numerics["starts"], numerics["seed"]),
+        tilts(numerics.starts, numerics.seed),
     )
 
 
@@ -169,55 +173,64 @@ DOCUMENT_EIGENAXIS = {
 BENCHMARK_GUESS = {"quarter": (2.5, 90.0), "half": (3.5, 180.0)}
 
 
-def guess(given: Parameters, case: str) -> float:
+def guess(parameters: Parameters, case: str) -> float:
     """A guess of the least time of a turn, s."""
-    axis = given.axis(case)
-    moment = float(axis @ given.inertia @ axis)
-    alone = eigenaxis_time(np.radians(given.angle_deg(case)), moment, given.torque, given.momentum)
+    axis = parameters.axis(case)
+    moment = float(axis @ parameters.inertia @ axis)
+    alone = eigenaxis_time(
+        np.radians(parameters.angle_deg(case)), moment, parameters.torque, parameters.momentum
+    )
     return DOCUMENT_GUESS[case] * (alone / DOCUMENT_EIGENAXIS[case])
 
 
-def benchmark_guess(given: Parameters, case: str) -> float:
+def benchmark_guess(parameters: Parameters, case: str) -> float:
     """The same for a body of unit moments and torques."""
     about, angle = BENCHMARK_GUESS[case]
-    return about * float(np.sqrt(given.angle_deg(case) / angle))
+    return about * float(np.sqrt(parameters.angle_deg(case) / angle))
 
 
-def cases(section: Config, given: Parameters) -> dict[str, tuple[Model, np.ndarray, float, Mesh]]:
+def cases(
+    section: Configuration, parameters: Parameters
+) -> dict[str, tuple[Model, np.ndarray, float, Mesh]]:
     """The least-time problems of this study: model, target, guess of the time, mesh."""
-    unit = given.duration
-    half, quarter = given.targets["half"], given.targets["quarter"]
-    entry = section["manoeuvre"]["half"]
-    mesh = Mesh(entry["segments"], entry["segment_nodes"])
+    unit = parameters.duration
+    half, quarter = parameters.targets["half"], parameters.targets["quarter"]
+    entry = section.manoeuvre.half
+    mesh = Mesh(entry.segments, entry.segment_nodes)
 
     def model(carried: bool, gradient: bool) -> Model:
         return Model(
-            given.inertia, given.torque, given.momentum, unit, carried, given if gradient else None
+            parameters.inertia,
+            parameters.torque,
+            parameters.momentum,
+            unit,
+            carried,
+            parameters if gradient else None,
         )
 
     # Equal moments of inertia and unit torques: the benchmark of Bilimoria and Wie.
     benchmark = Model(np.eye(3), 1.0, 1e6, 1.0, False, None)
-    larger, smaller = given.names["half"], given.names["quarter"]
-    long, short = guess(given, "half"), guess(given, "quarter")
+    larger, smaller = parameters.names["half"], parameters.names["quarter"]
+    long, short = guess(parameters, "half"), guess(parameters, "quarter")
     return {
         f"{larger}, wheels and gravity gradient": (model(True, True), half, long, mesh),
         f"{larger}, wheels": (model(True, False), half, long, mesh),
         f"{larger}, no wheel momentum": (model(False, False), half, long, mesh),
         f"{smaller}, wheels and gravity gradient": (model(True, True), quarter, short, mesh),
         f"{smaller}, wheels": (model(True, False), quarter, short, mesh),
-        f"benchmark, {larger}": (benchmark, half, benchmark_guess(given, "half"), mesh),
-        f"benchmark, {smaller}": (benchmark, quarter, benchmark_guess(given, "quarter"), mesh),
+        f"benchmark, {larger}": (benchmark, half, benchmark_guess(parameters, "half"), mesh),
+        f"benchmark, {smaller}": (benchmark, quarter, benchmark_guess(parameters, "quarter"), mesh),
     }
 
 
 def tables(
-    section: Config, given: Parameters
+    section: Configuration, parameters: Parameters
 ) -> tuple[dict[str, pd.DataFrame], list[NotConverged]]:
     """Tables by name: least times, switches, starts, seconds of the solves; what failed."""
     rows, switches, starts, seconds = [], [], [], []
     unsolved: list[NotConverged] = []
-    for name, (model, target, about, mesh) in cases(section, given).items():
-        found = least_time(model, given.initial, target, about, mesh, section)
+    for name, (model, target, about, mesh) in cases(section, parameters).items():
+        found = least_time(model, parameters.initial, target, about, mesh, section.numerics)
         converged = found.starts[found.starts["converged"]]
         h = found.collocated.hamiltonian
         rows.append(

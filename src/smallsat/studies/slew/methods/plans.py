@@ -6,11 +6,11 @@ from math import nan
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.evidence.not_converged import NotConverged
 from smallsat.optimal_control.gauss_pseudospectral import Mesh
 from smallsat.optimal_control.nonlinear_program import IpoptSolver, Solution
 from smallsat.optimal_control.zero_order_hold import HeldControl
+from smallsat.studies.slew.configuration import Numerics
 from smallsat.studies.slew.methods.flown import miss, propagate_held
 from smallsat.studies.slew.methods.guidance_problem import (
     Guidance,
@@ -70,36 +70,37 @@ class HeldPlan:
     rate_miss: float
 
 
-def guidance_model(given: Parameters, torque: float | None = None, unit: float = 0.0) -> Model:
+def guidance_model(parameters: Parameters, torque: float | None = None, unit: float = 0.0) -> Model:
     """The spacecraft as the guidance knows it: wheels with momentum, gravity gradient."""
     return Model(
-        given.inertia,
-        given.torque if torque is None else torque,
-        given.momentum,
-        unit or given.duration,
+        parameters.inertia,
+        parameters.torque if torque is None else torque,
+        parameters.momentum,
+        unit or parameters.duration,
         True,
-        given,
+        parameters,
     )
 
 
 def best_plan(
     model: Model,
-    given: Parameters,
+    parameters: Parameters,
     case: str,
     duration: float,
     mesh: Mesh,
-    section: Config,
+    numerics: Numerics,
     starts: int,
 ) -> tuple[Result, pd.DataFrame]:
     """Cheapest converged plan of several starts, and one row a start."""
-    numerics = section["numerics"]
-    target = given.targets[case]
-    guidance = Guidance(model, problem(model, given.initial, target, (duration, duration)), mesh)
+    target = parameters.targets[case]
+    guidance = Guidance(
+        model, problem(model, parameters.initial, target, (duration, duration)), mesh
+    )
     results = [
         guidance.solve(
-            turning_guess(model, given.initial, target, duration, tilt), numerics["smoothing"]
+            turning_guess(model, parameters.initial, target, duration, tilt), numerics.smoothing
         )
-        for tilt in tilts(starts, numerics["seed"])
+        for tilt in tilts(starts, numerics.seed)
     ]
     table = pd.DataFrame(
         [
@@ -125,29 +126,30 @@ def unsolved(case: str, result: Result, tried: str) -> list[NotConverged]:
 
 
 def held_if_converged(
-    model: Model, given: Parameters, case: str, name: str, result: Result, section: Config
+    model: Model, parameters: Parameters, case: str, name: str, result: Result, numerics: Numerics
 ) -> tuple[HeldPlan | None, list[NotConverged]]:
     """A plan with a held control where there is a plan to start from, and what did not converge."""
     if not result.solution.converged:
         return None, []
-    held = hold(model, given, case, result, section)
+    held = hold(model, parameters, case, result, numerics)
     if held.solution.converged:
         return held, []
     row = NotConverged(
         f"{name}, with a held control",
         held.solution.status,
         held.solution.violation,
-        f"{section['numerics']['held_intervals']} pieces, from the collocated plan",
+        f"{numerics.held_intervals} pieces, from the collocated plan",
     )
     return held, [row]
 
 
-def hold(model: Model, given: Parameters, case: str, result: Result, section: Config) -> HeldPlan:
+def hold(
+    model: Model, parameters: Parameters, case: str, result: Result, numerics: Numerics
+) -> HeldPlan:
     """Optimise again with a held control, from a collocated plan, and fly it anew."""
-    numerics = section["numerics"]
-    pieces, plan = numerics["held_intervals"], result.plan
-    target = given.targets[case]
-    stated = problem(model, given.initial, target, (result.duration, result.duration))
+    pieces, plan = numerics.held_intervals, result.plan
+    target = parameters.targets[case]
+    stated = problem(model, parameters.initial, target, (result.duration, result.duration))
     method = HeldControl(stated, pieces, 1)
     solver = IpoptSolver(
         method.program, tol=1e-9, max_iter=600, mu_strategy="monotone", mu_init=1e-4
@@ -158,7 +160,7 @@ def hold(model: Model, given: Parameters, case: str, result: Result, section: Co
         np.vstack([stated.initial, plan.states, plan.ends[-1]]),
         np.vstack([plan.controls[0], plan.controls, plan.controls[-1]]),
     )
-    solution = solver.solve(guess, [numerics["held_smoothing"]])
+    solution = solver.solve(guess, [numerics.held_smoothing])
     controls = np.clip(method.controls(solution.variables), -1.0, 1.0)
     length = plan.final_time / pieces
     states = propagate_held(model, stated.initial, np.full(pieces, length), controls)
@@ -175,29 +177,28 @@ def hold(model: Model, given: Parameters, case: str, result: Result, section: Co
 
 
 def least_infeasible(
-    model: Model, given: Parameters, case: str, duration: float, mesh: Mesh, section: Config
+    model: Model, parameters: Parameters, case: str, duration: float, mesh: Mesh, numerics: Numerics
 ) -> tuple[Result, Solution]:
     """The plan that misses its end least, and the failed solve of the problem as it stands.
 
     The miss is the squared attitude error, rad^2, plus the squared rate times T^2.
     """
-    numerics = section["numerics"]
-    target = given.targets[case]
+    target = parameters.targets[case]
     window = (duration, duration)
-    hard = Guidance(model, problem(model, given.initial, target, window), mesh)
+    hard = Guidance(model, problem(model, parameters.initial, target, window), mesh)
     refused = hard.solve(
-        turning_guess(model, given.initial, target, duration, (0.2, 0.0)), [1.0]
+        turning_guess(model, parameters.initial, target, duration, (0.2, 0.0)), [1.0]
     ).solution
-    soft = Guidance(model, problem(model, given.initial, target, window, soft=True), mesh)
+    soft = Guidance(model, problem(model, parameters.initial, target, window, soft=True), mesh)
     results = [
-        soft.solve(turning_guess(model, given.initial, target, duration, tilt), [1.0])
-        for tilt in tilts(numerics["starts"], numerics["seed"])[: 3 if mesh.segments == 1 else 5]
+        soft.solve(turning_guess(model, parameters.initial, target, duration, tilt), [1.0])
+        for tilt in tilts(numerics.starts, numerics.seed)[: 3 if mesh.segments == 1 else 5]
     ]
     converged = [r for r in results if r.solution.converged]
     return min(converged or results, key=lambda r: r.solution.objective), refused
 
 
-def node_table(model: Model, result: Result, given: Parameters, name: str) -> pd.DataFrame:
+def node_table(model: Model, result: Result, parameters: Parameters, name: str) -> pd.DataFrame:
     """A plan at its points: time, state, torque and costate, with both ends; SI units."""
     plan = result.plan
     times = np.r_[0.0, plan.times, plan.final_time] * model.unit
@@ -250,7 +251,7 @@ def joined(tables: list[pd.DataFrame], columns: tuple[str, ...]) -> pd.DataFrame
 
 def summary(
     model: Model,
-    given: Parameters,
+    parameters: Parameters,
     name: str,
     result: Result,
     starts: pd.DataFrame,
@@ -270,7 +271,9 @@ def summary(
         "hamiltonian_mean": float(np.mean(h)),
         "hamiltonian_spread": spread(h),
     }
-    row |= {f"peak_{a}_pct": float(p / given.momentum) for a, p in zip(AXES, peaks, strict=True)}
+    row |= {
+        f"peak_{a}_pct": float(p / parameters.momentum) for a, p in zip(AXES, peaks, strict=True)
+    }
     if held is not None:
         flown = 100.0 * np.abs(held.states[:, 7:]).max(axis=0) * model.momentum_unit
         row |= {
@@ -282,7 +285,7 @@ def summary(
             "largest_torque_share": float(np.abs(held.controls).max()),
         }
         row |= {
-            f"held_peak_{a}_pct": float(p / given.momentum)
+            f"held_peak_{a}_pct": float(p / parameters.momentum)
             for a, p in zip(AXES, flown, strict=True)
         }
     # Where there is none a table has the columns all the same.

@@ -6,9 +6,9 @@ from math import nan
 
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.evidence.not_converged import NotConverged
 from smallsat.optimal_control.gauss_pseudospectral import Mesh
+from smallsat.studies.slew.configuration import Configuration, Numerics
 from smallsat.studies.slew.methods.bound import impossible, plan_names
 from smallsat.studies.slew.methods.guidance_problem import Model, Result
 from smallsat.studies.slew.methods.plans import (
@@ -71,30 +71,42 @@ class Turn:
     missing: list[NotConverged] = field(default_factory=list)
 
 
-def meshes(section: Config, case: str) -> dict[str, Mesh]:
+def meshes(section: Configuration, case: str) -> dict[str, Mesh]:
     """The document's mesh of a turn, one segment, and ours, several."""
-    entry = section["manoeuvre"][case]
+    entry = section.manoeuvre[case]
     return {
-        "one segment": Mesh(1, entry["nodes"]),
-        "segments": Mesh(entry["segments"], entry["segment_nodes"]),
+        "one segment": Mesh(1, entry.nodes),
+        "segments": Mesh(entry.segments, entry.segment_nodes),
     }
 
 
-def turn_plans(model: Model, given: Parameters, case: str, section: Config) -> Iterator[Turn]:
+def turn_plans(
+    model: Model, parameters: Parameters, case: str, section: Configuration
+) -> Iterator[Turn]:
     """The plan of a turn in the document's time on each mesh."""
-    beyond_reach = impossible(given, case, given.duration)
+    beyond_reach = impossible(parameters, case, parameters.duration)
     for kind, mesh in meshes(section, case).items():
         if beyond_reach:
-            yield _least_infeasible(model, given, case, kind, mesh, section, proven=True)
+            yield _least_infeasible(
+                model, parameters, case, kind, mesh, section.numerics, proven=True
+            )
             continue
         result, starts = best_plan(
-            model, given, case, given.duration, mesh, section, section["numerics"]["starts"]
+            model,
+            parameters,
+            case,
+            parameters.duration,
+            mesh,
+            section.numerics,
+            section.numerics.starts,
         )
         if not result.solution.converged:
-            yield _least_infeasible(model, given, case, kind, mesh, section, proven=False)
+            yield _least_infeasible(
+                model, parameters, case, kind, mesh, section.numerics, proven=False
+            )
             continue
-        name, _ = plan_names(given, case, kind)
-        turn = _least_torque(model, given, case, name, kind, result, starts, section)
+        name, _ = plan_names(parameters, case, kind)
+        turn = _least_torque(model, parameters, case, name, kind, result, starts, section.numerics)
         # Whether the larger turn is possible is the document's own question.
         answer = dict(zip(INFEASIBLE, (kind, result.solution.status, True, "", nan), strict=True))
         yield Turn(
@@ -102,41 +114,45 @@ def turn_plans(model: Model, given: Parameters, case: str, section: Config) -> I
         )
 
 
-def free_plans(given: Parameters, section: Config) -> Iterator[Turn]:
+def free_plans(parameters: Parameters, section: Configuration) -> Iterator[Turn]:
     """The smaller turn without the gravity gradient, which has a solution by hand."""
-    if impossible(given, "quarter", given.duration, gradient=False):
+    if impossible(parameters, "quarter", parameters.duration, gradient=False):
         return
-    free = Model(given.inertia, given.torque, given.momentum, given.duration, True, None)
+    free = Model(
+        parameters.inertia, parameters.torque, parameters.momentum, parameters.duration, True, None
+    )
     for kind, mesh in meshes(section, "quarter").items():
-        name = f"{given.names['quarter']}, no gravity gradient, {kind}"
+        name = f"{parameters.names['quarter']}, no gravity gradient, {kind}"
         result, starts = best_plan(
-            free, given, "quarter", given.duration, mesh, section, SWEEP_STARTS
+            free, parameters, "quarter", parameters.duration, mesh, section.numerics, SWEEP_STARTS
         )
-        turn = _least_torque(free, given, "quarter", name, kind, result, starts, section)
+        turn = _least_torque(
+            free, parameters, "quarter", name, kind, result, starts, section.numerics
+        )
         missing = turn.missing + unsolved(name, result, f"{len(starts)} starts")
         yield Turn(turn.row, turn.seconds, timed=False, missing=missing)
 
 
 def _least_torque(
     model: Model,
-    given: Parameters,
+    parameters: Parameters,
     case: str,
     name: str,
     kind: str,
     result: Result,
     starts: pd.DataFrame,
-    section: Config,
+    numerics: Numerics,
 ) -> Turn:
     """A plan of least torque; on our mesh with a held control too."""
     held: HeldPlan | None = None
     missing: list[NotConverged] = []
     if kind == "segments":
-        held, missing = held_if_converged(model, given, case, name, result, section)
+        held, missing = held_if_converged(model, parameters, case, name, result, numerics)
     return Turn(
-        row=summary(model, given, name, result, starts, held),
+        row=summary(model, parameters, name, result, starts, held),
         seconds=result.seconds,
         starts=starts.assign(plan=name),
-        nodes=node_table(model, result, given, name),
+        nodes=node_table(model, result, parameters, name),
         held=held_table(model, held, name) if held and held.solution.converged else None,
         missing=missing,
     )
@@ -144,16 +160,16 @@ def _least_torque(
 
 def _least_infeasible(
     model: Model,
-    given: Parameters,
+    parameters: Parameters,
     case: str,
     kind: str,
     mesh: Mesh,
-    section: Config,
+    numerics: Numerics,
     proven: bool,
 ) -> Turn:
     """The plan that misses its end least; a larger turn that cannot be is a result, no failure."""
-    feasible, name = plan_names(given, case, kind)
-    result, refused = least_infeasible(model, given, case, given.duration, mesh, section)
+    feasible, name = plan_names(parameters, case, kind)
+    result, refused = least_infeasible(model, parameters, case, parameters.duration, mesh, numerics)
     missing = unsolved(name, result, "free end, starts on and off the eigenaxis")
     if case == "quarter" or not proven:
         why = "no plan can exist in this time, by the bound" if proven else "no start converged"
@@ -168,9 +184,9 @@ def _least_infeasible(
         )
     met = (kind, refused.status, refused.converged, result.solution.status)
     return Turn(
-        row=summary(model, given, name, result, pd.DataFrame({"converged": [True]}), None),
+        row=summary(model, parameters, name, result, pd.DataFrame({"converged": [True]}), None),
         seconds=result.seconds,
-        nodes=node_table(model, result, given, name) if result.solution.converged else None,
+        nodes=node_table(model, result, parameters, name) if result.solution.converged else None,
         infeasible=dict(zip(INFEASIBLE, (*met, result.solution.objective), strict=True))
         if case == "half"
         else None,

@@ -3,12 +3,12 @@
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.dynamics.attitude.attitude_propagator import propagate
 from smallsat.dynamics.attitude.quaternions import error_quaternion, turn_angle
 from smallsat.dynamics.compiled import compiled
 from smallsat.dynamics.orbits.kepler_orbits import acceleration, propagate_orbit
 from smallsat.dynamics.units import KM
+from smallsat.studies.slew.configuration import Configuration
 from smallsat.studies.slew.parameters import START, Parameters
 
 # The highest zonal harmonic that the propagator knows.
@@ -35,7 +35,7 @@ def _rate(y, mu, radius, j2):
 
 
 def final_orbit_states(
-    section: Config, given: Parameters, printed_start: np.ndarray
+    section: Configuration, parameters: Parameters, printed_start: np.ndarray
 ) -> pd.DataFrame:
     """State at the end of the manoeuvre, km and km/s, by start, gravity and integrator.
 
@@ -43,20 +43,22 @@ def final_orbit_states(
     printed end follows from these rounded numbers.
     """
     starts = {
-        "the orbital elements": np.concatenate(given.state),
+        "the orbital elements": np.concatenate(parameters.state),
         "the printed initial state": printed_start,
     }
-    step = section["onboard"]["step_s"]
-    steps = round(given.duration / step)
+    step = section.onboard.step_s
+    steps = round(parameters.duration / step)
     rows = []
     for name, start in starts.items():
-        for gravity, j2 in (("two-body", 0.0), (f"J{GRAVITY_ORDER}", given.gravity.j2)):
-            field = given.gravity._replace(j2=j2)
+        for gravity, j2 in (("two-body", 0.0), (f"J{GRAVITY_ORDER}", parameters.gravity.j2)):
+            field = parameters.gravity._replace(j2=j2)
             found = {
                 "order 8": propagate_orbit(
-                    start[:3], start[3:], field, np.array([START, given.duration])
+                    start[:3], start[3:], field, np.array([START, parameters.duration])
                 )[-1],
-                "order 3, fixed step": third_order(start, *field, steps, given.duration / steps),
+                "order 3, fixed step": third_order(
+                    start, *field, steps, parameters.duration / steps
+                ),
             }
             for method, state in found.items():
                 row = {"start": name, "gravity": gravity, "integrator": method}

@@ -237,7 +237,7 @@ def integrate(start, plant, command, steps, step, every):
 
 
 def plant(
-    given: Parameters,
+    parameters: Parameters,
     *,
     carried: bool = True,
     gradient: bool = True,
@@ -245,15 +245,15 @@ def plant(
     inertia_factor: float = 1.0,
 ) -> Plant:
     """The spacecraft of the document in the fuller model, or with parts of it left out."""
-    inertia = inertia_factor * given.inertia
+    inertia = inertia_factor * parameters.inertia
     return Plant(
         inertia,
         np.linalg.inv(inertia),
-        *given.gravity,
-        given.panels,
-        given.drag_coefficient,
-        given.torque,
-        given.momentum,
+        *parameters.gravity,
+        parameters.panels,
+        parameters.drag_coefficient,
+        parameters.torque,
+        parameters.momentum,
         float(carried),
         float(gradient),
         float(drag),
@@ -261,7 +261,7 @@ def plant(
 
 
 def eigenaxis(
-    given: Parameters,
+    parameters: Parameters,
     target: np.ndarray,
     natural_frequency: float,
     damping_ratio: float,
@@ -275,7 +275,7 @@ def eigenaxis(
         factor * natural_frequency**2,
         2.0 * damping_ratio * natural_frequency,
         0.0,
-        given.inertia,
+        parameters.inertia,
         target,
         hold,
         1.0,
@@ -283,20 +283,22 @@ def eigenaxis(
     )
 
 
-def open_loop(given: Parameters, table_step: float, torques: np.ndarray) -> Command:
+def open_loop(parameters: Parameters, table_step: float, torques: np.ndarray) -> Command:
     """A torque history (n, 3) at equal times, linear in between."""
     plan = np.zeros((len(torques), 10))
     plan[:, :3] = torques
-    return Command(OPEN_LOOP, 0.0, 0.0, 0.0, given.inertia, given.initial, 0, table_step, plan)
+    return Command(
+        OPEN_LOOP, 0.0, 0.0, 0.0, parameters.inertia, parameters.initial, 0, table_step, plan
+    )
 
 
-def start_state(given: Parameters) -> np.ndarray:
+def start_state(parameters: Parameters) -> np.ndarray:
     """State (16,) at the start: at rest, wheels at rest."""
-    return np.r_[given.initial, np.zeros(6), *given.state]
+    return np.r_[parameters.initial, np.zeros(6), *parameters.state]
 
 
 def run(
-    given: Parameters,
+    parameters: Parameters,
     model: Plant,
     command: Command,
     duration: float,
@@ -309,7 +311,7 @@ def run(
     """
     between = max(1, round(every / step))
     steps = between * max(1, round(duration / step / between))
-    record = integrate(start_state(given), model, command, steps, duration / steps, between)
+    record = integrate(start_state(parameters), model, command, steps, duration / steps, between)
     return pd.DataFrame(record, columns=list(COLUMNS))
 
 
@@ -319,8 +321,8 @@ def angles_deg(table: pd.DataFrame) -> np.ndarray:
     return np.degrees([roll_pitch_yaw(row) for row in q])
 
 
-def usage_pct(table: pd.DataFrame, given: Parameters) -> tuple[np.ndarray, np.ndarray]:
+def usage_pct(table: pd.DataFrame, parameters: Parameters) -> tuple[np.ndarray, np.ndarray]:
     """Torque and momentum of each wheel (n, 3), percent of the limits."""
-    torque = table[["u_x", "u_y", "u_z"]].to_numpy() / given.torque
-    momentum = table[["h_x", "h_y", "h_z"]].to_numpy() / given.momentum
+    torque = table[["u_x", "u_y", "u_z"]].to_numpy() / parameters.torque
+    momentum = table[["h_x", "h_y", "h_z"]].to_numpy() / parameters.momentum
     return 100.0 * torque, 100.0 * momentum

@@ -5,20 +5,21 @@ import numpy as np
 from smallsat.dynamics.units import KM
 from smallsat.evidence.ledger import Ledger
 from smallsat.step import Step, Tables
+from smallsat.studies.slew.configuration import Configuration
 from smallsat.studies.slew.methods.environment_study import torque_table
 from smallsat.studies.slew.methods.flights import eigenaxis_flights
 from smallsat.studies.slew.model.onboard import final_orbit_states
-from smallsat.studies.slew.parameters import parameters
+from smallsat.studies.slew.parameters import Parameters
 
 
-def run(step: Step) -> Tables:
+def run(step: Step[Configuration]) -> Tables:
     """Simulate what needs no plan."""
-    section, given = step.section, parameters(step.section)
+    section, parameters = step.section, Parameters.from_section(step.section)
     ledger = Ledger.read(step.published / "values.csv")
     position, velocity = (ledger.values(f"table-2/{name}") for name in ("r-0", "v-0"))
     start = KM * np.array([*position, *velocity], dtype=float)
     return {
-        "flights.parquet": eigenaxis_flights(section, given),
-        "orbit.csv": final_orbit_states(section, given, start),
-        "environment.csv": torque_table(section, given),
+        "flights.parquet": eigenaxis_flights(section, parameters),
+        "orbit.csv": final_orbit_states(section, parameters, start),
+        "environment.csv": torque_table(section, parameters),
     }

@@ -4,19 +4,20 @@ import pandas as pd
 
 from smallsat.evidence.not_converged import not_converged_table
 from smallsat.step import Step, Tables
+from smallsat.studies.slew.configuration import Configuration
 from smallsat.studies.slew.methods import minimum_time
 from smallsat.studies.slew.methods.bound import bound_time
-from smallsat.studies.slew.parameters import parameters
+from smallsat.studies.slew.parameters import Parameters
 
 
-def run(step: Step) -> Tables:
+def run(step: Step[Configuration]) -> Tables:
     """Find them."""
-    given = parameters(step.section)
-    tables, missing = minimum_time.tables(step.section, given)
+    parameters = Parameters.from_section(step.section)
+    tables, missing = minimum_time.tables(step.section, parameters)
     bounds = [
         {
             "model": "wheels, gravity gradient" if gradient else "wheels",
-            "bound_s": bound_time(given, gradient),
+            "bound_s": bound_time(parameters, gradient),
         }
         for gradient in (False, True)
     ]

@@ -5,9 +5,9 @@ import time
 import numpy as np
 import pandas as pd
 
-from smallsat.config import Config
 from smallsat.evidence.not_converged import not_converged_table
 from smallsat.step import Step, Tables
+from smallsat.studies.slew.configuration import Configuration
 from smallsat.studies.slew.methods.flights import replay
 from smallsat.studies.slew.methods.plans import HELD_COLUMNS, guidance_model, joined, resampled
 from smallsat.studies.slew.methods.turns import (
@@ -19,19 +19,19 @@ from smallsat.studies.slew.methods.turns import (
 )
 from smallsat.studies.slew.model.onboard import third_order, transition_errors
 from smallsat.studies.slew.model.simulation import COLUMNS
-from smallsat.studies.slew.parameters import Parameters, parameters
+from smallsat.studies.slew.parameters import Parameters
 
 REPETITIONS = 10
 
 
-def run(step: Step) -> Tables:
+def run(step: Step[Configuration]) -> Tables:
     """Plan both turns, and simulate what the plans do."""
-    section, given = step.section, parameters(step.section)
-    model = guidance_model(given)
+    section, parameters = step.section, Parameters.from_section(step.section)
+    model = guidance_model(parameters)
     turns = [
-        *turn_plans(model, given, "quarter", section),
-        *free_plans(given, section),
-        *turn_plans(model, given, "half", section),
+        *turn_plans(model, parameters, "quarter", section),
+        *free_plans(parameters, section),
+        *turn_plans(model, parameters, "half", section),
     ]
     infeasible = [turn.infeasible for turn in turns if turn.infeasible]
     starts = [turn.starts for turn in turns if turn.starts is not None]
@@ -39,14 +39,16 @@ def run(step: Step) -> Tables:
     helds = [turn.held for turn in turns if turn.held is not None]
     replays = {
         str(nodes["plan"].iloc[0]): replay(
-            given, section, resampled(nodes, section["resampling_hz"]), given.duration
+            parameters, section, resampled(nodes, section.resampling_hz), parameters.duration
         )
         for nodes in nodes
     }
     flights = [flown.assign(flight=name) for name, flown in replays.items()]
     chosen = {name: flown for name, flown in replays.items() if name.endswith(", segments")}
     seconds = [{"plan": turn.row["plan"], "seconds": turn.seconds} for turn in turns if turn.timed]
-    seconds.append({"plan": "on-board propagator", "seconds": _propagator_seconds(section, given)})
+    seconds.append(
+        {"plan": "on-board propagator", "seconds": _propagator_seconds(section, parameters)}
+    )
     return {
         "plans.csv": pd.DataFrame([turn.row for turn in turns]),
         "infeasible.csv": pd.DataFrame(infeasible, columns=list(INFEASIBLE)),
@@ -62,13 +64,13 @@ def run(step: Step) -> Tables:
     }
 
 
-def _propagator_seconds(section: Config, given: Parameters) -> float:
+def _propagator_seconds(section: Configuration, parameters: Parameters) -> float:
     """Seconds of the on-board propagation of the orbit, compiled, as the mean of several runs."""
-    step = section["onboard"]["step_s"]
-    steps = round(given.duration / step)
-    start = np.concatenate(given.state)
-    third_order(start, *given.gravity, steps, step)
+    step = section.onboard.step_s
+    steps = round(parameters.duration / step)
+    start = np.concatenate(parameters.state)
+    third_order(start, *parameters.gravity, steps, step)
     began = time.perf_counter()
     for _ in range(REPETITIONS):
-        third_order(start, *given.gravity, steps, step)
+        third_order(start, *parameters.gravity, steps, step)
     return (time.perf_counter() - began) / REPETITIONS

@@ -2,11 +2,12 @@
 
 from smallsat.evidence.ledger import Ledger
 from smallsat.step import Step, Tables
+from smallsat.studies.slew.configuration import Configuration
 from smallsat.studies.slew.methods.controller_search import printed_values, search
-from smallsat.studies.slew.parameters import parameters
+from smallsat.studies.slew.parameters import Parameters
 
 
-def run(step: Step) -> Tables:
+def run(step: Step[Configuration]) -> Tables:
     """Search them."""
     printed = printed_values(Ledger.read(step.published / "values.csv"))
-    return {"controllers.csv": search(parameters(step.section), printed)}
+    return {"controllers.csv": search(Parameters.from_section(step.section), printed)}

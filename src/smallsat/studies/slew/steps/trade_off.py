@@ -2,13 +2,14 @@
 
 from smallsat.evidence.not_converged import not_converged_table
 from smallsat.step import Step, Tables
+from smallsat.studies.slew.configuration import Configuration
 from smallsat.studies.slew.methods.beyond import trade_off
-from smallsat.studies.slew.parameters import parameters
+from smallsat.studies.slew.parameters import Parameters
 
 
-def run(step: Step) -> Tables:
+def run(step: Step[Configuration]) -> Tables:
     """Plan it in each of them."""
-    tables, missing = trade_off(step.section, parameters(step.section))
+    tables, missing = trade_off(step.section, Parameters.from_section(step.section))
     return {
         "trade-off.csv": tables["trade-off"],
         "trade-off-plans.parquet": tables["trade-off-plans"],
