@@ -118,7 +118,7 @@ def step(
             study=study,
             step=runs or name,
             words=" ".join(words),
-            config=as_json(CONFIG[study].of(takes) if takes else CONFIG[study]),
+            config=as_json(CONFIG[study].only(takes) if takes else CONFIG[study]),
         message:
             f"{study}: {name}"
         shell:

@@ -70,7 +70,7 @@ def refusal(*, files=(), entries=()) -> str:
         ),
         (
             'racing={"scenarios": {"scenario-1": {"course_file": "none.csv"}}}',
-            ("scenario-1.course_file", "none.csv", "that exists"),
+            ("scenario-1.course_file", "none.csv", "does not exist"),
         ),
         ("vesuvius=1", ("vesuvius", "unknown", "transfer, mars")),
         ("run=../out", ("run", "'../out'")),

@@ -24,7 +24,7 @@ class Part(BaseModel):
             raise KeyError(key)
         return getattr(self, name)
 
-    def of(self, kind: "type[Part]") -> dict[str, Any]:
+    def only(self, kind: "type[Part]") -> dict[str, Any]:
         """The values of a kind of part that this is one of, as plain data."""
         return TypeAdapter(kind).dump_python(self)
 

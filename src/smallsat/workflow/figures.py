@@ -12,7 +12,6 @@ from smallsat.strict_yaml import read_yaml
 
 NOTEBOOK_KEYS = ("section", "published", "reads", "makes", "runs")
 RUN_KEYS = ("figures", "film", "reads", "parameters")
-ALL = "all"
 
 
 @dataclass(frozen=True)
@@ -32,7 +31,8 @@ class NotebookRun:
     reads, makes
         Files of the study's results that it reads, and that it makes beside the figures.
     section
-        Keys of the study's configuration that it takes, or ``all``; none if it needs none.
+        What it takes of the study's section: a type of its module ``configuration``, or keys; none
+        if it needs none.
     published
         Whether it reads the published values.
     parameters
@@ -70,9 +70,11 @@ class NotebookRun:
             given["film"] = f"figures/{self.study}/{self.film}.mp4"
         else:
             given |= {"folder": f"figures/{self.study}", "figures": dict(self.figures)}
-        if self.section:
-            keys = None if self.section == ALL else set(self.section)
-            given["section"] = section.model_dump(include=keys)
+        if isinstance(self.section, str):
+            kind = getattr(study_module(self.study, "configuration"), self.section)
+            given["section"] = section.only(kind)
+        elif self.section:
+            given["section"] = {key: section[key] for key in self.section}
         if self.published:
             given["published"] = published
         return given
@@ -112,7 +114,7 @@ def read_runs(folder: Path) -> list[NotebookRun]:
                     run.get("film", ""),
                     (*entry.get("reads", ()), *run.get("reads", ())),
                     tuple(entry.get("makes", ())),
-                    section if section == ALL else tuple(section),
+                    section if isinstance(section, str) else tuple(section),
                     entry.get("published", False),
                     run.get("parameters", {}),
                 )

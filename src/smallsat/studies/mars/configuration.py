@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from annotated_types import Gt, Interval, Le, Len
+from annotated_types import Ge, Gt, Le, Len
 
 from smallsat.quantities import (
     Count,
@@ -16,12 +16,10 @@ from smallsat.quantities import (
 )
 
 Duration = Annotated[Number, Gt(0), Le(1e6)]
-AtLeastOne = Annotated[Number, Interval(ge=1)]
+AtLeastOne = Annotated[Number, Ge(1)]
 
 
 class Orbit(Part):
-    """A circular one."""
-
     raan_deg: Number
     inclination_deg: Inclination
     argument_of_latitude_deg: Number
@@ -30,8 +28,6 @@ class Orbit(Part):
 
 
 class Orbits(Part):
-    """Of the nano-satellite and of the mothercraft."""
-
     mars_radius_km: Positive
     lmo: Orbit
     gmo: Orbit
@@ -46,8 +42,6 @@ class Spacecraft(Part):
 
 
 class Requirements(Part):
-    """What the gains follow from."""
-
     largest_decay_time_s: Positive
     largest_damping_ratio: Positive
 
@@ -70,8 +64,6 @@ class MrpSwitch(Part):
 
 
 class Durations(Part):
-    """Of the runs."""
-
     response: Duration
     mission: Duration
     day: Duration
@@ -91,23 +83,19 @@ class AnswerTimes(Part):
 
 
 class Animation(Part):
-    """The films."""
-
     frames_per_s: Count
     mission_step_s: Positive
     day_step_s: Positive
 
 
 class Configuration(Part):
-    """The whole section."""
-
     orbits: Orbits
     spacecraft: Spacecraft
     requirements: Requirements
     visibility_deg: Inclination
     fixed_torque_N_m: Vector
     # Shorter ones fill the memory.
-    step_s: Annotated[Number, Interval(ge=0.01)]
+    step_s: Annotated[Number, Ge(0.01)]
     frame_difference_s: FrameDifference
     mrp_switch: MrpSwitch
     durations_s: Durations

@@ -1,9 +1,9 @@
 """The configuration's ``racing`` section."""
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from annotated_types import Interval, Len, Lt
+from annotated_types import Ge, Interval, Len, Lt
 from pydantic import AfterValidator, Field, StrictBool
 
 from smallsat.quantities import (
@@ -22,8 +22,8 @@ from smallsat.quantities import (
 )
 
 
-def _ordered(values: tuple[T, ...]) -> tuple[T, ...]:
-    if values[0] > values[1]:  # type: ignore[operator]
+def _ordered(values: tuple[Any, Any]) -> tuple[Any, Any]:
+    if values[0] > values[1]:
         raise ValueError("the first must not exceed the second")
     return values
 
@@ -32,8 +32,8 @@ def _absolute(path: str) -> str:
     """The path of a course file from the root: jobs run elsewhere."""
     if path and not Path(path).is_file():
         raise ValueError(
-            "must be the path of a CSV file that exists, from the folder in which snakemake is "
-            'called, or "" for the course of the seed'
+            f"{'is no file' if Path(path).exists() else 'does not exist'}; give a CSV file's path "
+            'from the folder in which snakemake is called, or "" for the course of the seed'
         )
     return path and str(Path(path).resolve())
 
@@ -44,8 +44,6 @@ Panels = Annotated[Integer, Interval(ge=8, le=10000)]
 
 
 class CourseRanges(Part):
-    """Of the generator of courses."""
-
     semi_major_m: Ordered[Positive]
     semi_minor_m: Ordered[Positive]
     distance_m: Ordered[Positive]
@@ -77,8 +75,6 @@ class Craft(Part):
 
 
 class CubeSats(Part):
-    """Who flies."""
-
     Eeny: Craft
     Meeny: Craft
     Miny: Craft
@@ -94,8 +90,6 @@ class Scenario(Part):
 
 
 class Scenarios(Part):
-    """The two of the document."""
-
     scenario_1: Scenario = Field(alias="scenario-1")
     scenario_2: Scenario = Field(alias="scenario-2")
 
@@ -103,9 +97,9 @@ class Scenarios(Part):
 class AsPublished(Part):
     """Listings C.C to C.F: the flight has the tolerance, the quadrature in the solve the panels."""
 
-    duration_multiple: Annotated[Number, Interval(ge=1)]
+    duration_multiple: Annotated[Number, Ge(1)]
     costate_bound: Positive
-    evaluations: Annotated[Integer, Interval(ge=8)]
+    evaluations: Annotated[Integer, Ge(8)]
     deadzone: NonNegative
     constraint_deadzone: NonNegative
     final_hamiltonian: Annotated[Number, Lt(0)]
@@ -126,8 +120,6 @@ class Optimum(Part):
 
 
 class DynamicProgramming(Part):
-    """A grid of speeds, refined."""
-
     cubesat: Literal["Eeny", "Meeny", "Miny", "Mo"]
     least_speed: Positive
     largest_speed: Positive
@@ -136,8 +128,6 @@ class DynamicProgramming(Part):
 
 
 class RandomCourses(Part):
-    """Beyond the document."""
-
     courses: Annotated[Integer, Interval(ge=2, le=100000)]
     thrust_m_s2: Positive
     seed: Seed
@@ -145,8 +135,6 @@ class RandomCourses(Part):
 
 
 class Animation(Part):
-    """The film."""
-
     frames_per_s: Count
     step_s: Positive
 

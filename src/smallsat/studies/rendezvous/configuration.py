@@ -2,7 +2,7 @@
 
 from typing import Annotated, Literal
 
-from annotated_types import Gt, Interval, Le, Len, Lt
+from annotated_types import Ge, Gt, Interval, Le, Len, Lt
 from pydantic import StrictBool
 
 from smallsat.quantities import (
@@ -28,8 +28,6 @@ Switch = Literal["cone", "distance", "along axis"]
 
 
 class Spacecraft(Part):
-    """Each of the two."""
-
     mass_kg: Positive
     size_units: Count
     thruster_N: Positive
@@ -46,7 +44,7 @@ class Start(Part):
 class Phase(Part):
     """A phase of the guidance (Table 3.1); the bound is a change of velocity per step."""
 
-    sample_time_s: Annotated[Number, Interval(ge=0.1)]
+    sample_time_s: Annotated[Number, Ge(0.1)]
     horizon: Horizon
     state_weights: Annotated[tuple[NonNegative, ...], Len(6, 6)]
     control_weight: Positive
@@ -56,8 +54,6 @@ class Phase(Part):
 
 
 class Phases(Part):
-    """From afar to the port."""
-
     far: Phase
     mid: Phase
     final: Phase
@@ -108,7 +104,7 @@ class Inferred(Part):
 
 
 class Bounds(Part):
-    """Of the values that are fitted."""
+    """Of the fitted values, in the order in which the search draws them."""
 
     end_distance_m: Range[Number]
     keep_out_m: Range[Number]
@@ -134,14 +130,12 @@ class Inference(Part):
     delta_v_share: Positive
     delta_v_error_m_s: Positive
     time_share: Positive
-    acceptable: Annotated[Number, Interval(ge=1)]
+    acceptable: Annotated[Number, Ge(1)]
     flown: Annotated[Integer, Interval(ge=1, le=1000)]
     bounds: Bounds
 
 
 class DragCoefficient(Part):
-    """Of each spacecraft."""
-
     target: NonNegative
     chaser: NonNegative
 
@@ -166,7 +160,7 @@ class Truth(Part):
     raan_deg: Number
     argument_of_latitude_deg: Number
     earth_angle_deg: Number
-    step_s: Annotated[Number, Interval(ge=0.1)]
+    step_s: Annotated[Number, Ge(0.1)]
 
 
 class Solvers(Part):
@@ -177,8 +171,6 @@ class Solvers(Part):
 
 
 class Sweep(Part):
-    """Horizons and sample times of one phase."""
-
     horizons: Growing[Horizon]
     sample_times_s: Annotated[Growing[Positive], Len(2)]
 
@@ -196,8 +188,6 @@ class Delay(Part):
 
 
 class Prediction(Part):
-    """With J2, over inclinations."""
-
     inclinations_deg: Several[Inclination]
 
 
@@ -303,7 +293,5 @@ class MonteCarlo(Flight):
 
 
 class Configuration(Cases, MonteCarlo):
-    """The whole section."""
-
     solvers: Solvers
     studies: Studies

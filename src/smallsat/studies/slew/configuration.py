@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from annotated_types import Gt, Interval, Le, Len
+from annotated_types import Ge, Gt, Interval, Le, Len
 
 from smallsat.quantities import (
     Fraction,
@@ -23,16 +23,12 @@ Duration = Annotated[Number, Gt(0), Le(3600)]
 
 
 class Gravity(Part):
-    """Of the Earth."""
-
     mu_km3_s2: Positive
     earth_radius_km: Positive
     j2: NonNegative
 
 
 class Orbit(Part):
-    """At the start."""
-
     semi_major_axis_km: Positive
     eccentricity: Fraction
     inclination_deg: Inclination
@@ -42,8 +38,6 @@ class Orbit(Part):
 
 
 class Size(Part):
-    """Of the body."""
-
     length: Positive
     breadth: Positive
     height: Positive
@@ -95,16 +89,12 @@ class Manoeuvre(Part):
 
 
 class Controller(Part):
-    """Of the loop that is flown."""
-
     damping_ratio: Positive
     natural_frequency_rad_s: Positive
 
 
 class Onboard(Part):
-    """The computer."""
-
-    step_s: Annotated[Number, Interval(ge=0.001)]
+    step_s: Annotated[Number, Ge(0.001)]
 
 
 class Environment(Part):
@@ -130,8 +120,6 @@ class Numerics(Part):
 
 
 class Tracking(Part):
-    """A controller of our own."""
-
     natural_frequency_rad_s: Positive
     damping_ratio: Positive
     integral_per_s: Positive
@@ -139,8 +127,6 @@ class Tracking(Part):
 
 
 class Beyond(Part):
-    """What goes beyond the document."""
-
     trade_off_s: Several[Duration]
     torque_shares_pct: Several[Percent]
     inertia_error_pct: Percent
@@ -148,8 +134,6 @@ class Beyond(Part):
 
 
 class Configuration(Part):
-    """The whole section."""
-
     gravity: Gravity
     orbit: Orbit
     spacecraft: Spacecraft

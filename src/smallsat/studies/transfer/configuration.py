@@ -19,8 +19,6 @@ StepCount = Annotated[Integer, Interval(ge=16, le=4096)]
 
 
 class Problem(Part):
-    """The transfer."""
-
     mu: Positive
     thrust: Positive
     exhaust_speed: Positive
@@ -30,8 +28,6 @@ class Problem(Part):
 
 
 class Costate(Part):
-    """One of each state."""
-
     lambda_r: Number
     lambda_theta: Number
     lambda_vr: Number
@@ -50,8 +46,6 @@ class Guess(Part):
 
 
 class Bounds(Part):
-    """Of what the direct methods vary."""
-
     coefficient: Range[Number]
     interior_state: Range[Number]
     final_time_single: Range[NonNegative]
