@@ -61,6 +61,7 @@ def step(
     runs="",
     reads=(),
     published=(),
+    accepted=(),
     files=(),
     clock=(),
     part="",
@@ -86,14 +87,15 @@ def step(
     takes
         Type of the part of the study's section that it depends on; else the whole section. A
         change of anything else does not rerun it.
-    published, files
-        Published files of the study that it reads, and files of a person's own.
+    published, accepted, files
+        Published and accepted files of the study that it reads, and files of a person's own.
     priority
         Steps of a higher one start first.
     """
     implementation = f"smallsat.studies.{study}.steps.{runs or name}"
     words = [
         *[f"--published {project(f'data/published/{study}')}"] * bool(published),
+        *[f"--accepted {project(f'data/accepted/{study}')}"] * bool(accepted),
         *[f"--part {part}"] * bool(part),
         *[f"--shard {shard}"] * bool(shard),
     ]
@@ -105,6 +107,7 @@ def step(
         input:
             sources=sources("smallsat.workflow.run_step", implementation),
             published=published_files(study, *published),
+            accepted=[project(f"data/accepted/{study}/{name}") for name in accepted],
             files=list(files),
             results=results(study, *reads),
         output:

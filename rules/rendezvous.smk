@@ -1,5 +1,6 @@
 # Rendezvous: three-phase model predictive control, its undisclosed parameters and its manoeuvres.
 from smallsat.studies.rendezvous.configuration import Cases, MonteCarlo
+from smallsat.studies.rendezvous.inference.parameter_set import SEARCHES
 
 MANOEUVRE_SHARDS = Shard.all(CONFIG["rendezvous"].studies.shards)
 # Groups of manoeuvres, and where each begins: at an initial state, or where the baseline ended the
@@ -19,36 +20,64 @@ GROUP_TABLES = [f"studies/{group}.parquet" for group in GROUPS]
 FLIGHTS = ["flights.parquet", "paths.parquet", "phases.csv", "truth.csv"]
 INFERRED = [
     "inference.parquet",
+    "text.csv",
     "residuals.csv",
     "identified.csv",
     "profiles.csv",
     "readings.csv",
-    "ensemble.csv",
+    "sets.csv",
     "lp-variants.csv",
+]
+
+ENSEMBLE = [f"{number:02d}" for number in range(1, CONFIG["rendezvous"].inference.ensemble.sets + 1)]
+# What the claims read of each set of the ensemble.
+MEMBER_TABLES = [
+    "set.csv",
+    *FLIGHTS,
+    "constraints.csv",
+    "studies/initial-states.parquet",
+    "studies/disturbed-states.parquet",
+    *[
+        f"studies/{group}.parquet"
+        for group in GROUPS
+        if group not in ("weights", "delay", "passages")
+    ],
 ]
 
 step("rendezvous", "flights", makes=FLIGHTS, takes=Cases)
 
-# One search for each side of the R-bar, so that two cores have one each.
-for side in ("above", "below"):
+# One search for each option of each reading.
+for search in SEARCHES:
     step(
         "rendezvous",
-        f"search-{side}",
+        f"search-{search}",
         runs="search",
-        part=side,
-        makes=[f"search-{side}.parquet"],
+        part=search,
+        reads=["studies/initial-states.parquet"],
+        makes=[f"search-{search}.parquet"],
         published=["values.csv"],
+        accepted=["sets.csv"],
         takes=Cases,
     )
 
 step(
     "rendezvous",
     "inference",
-    reads=["search-above.parquet", "search-below.parquet"],
+    reads=["studies/initial-states.parquet"] + [f"search-{search}.parquet" for search in SEARCHES],
     makes=INFERRED,
-    published=["values.csv"],
+    published=["values.csv", "constraints.yaml"],
     takes=Cases,
 )
+for number in ENSEMBLE:
+    step(
+        "rendezvous",
+        f"ensemble-{number}",
+        runs="ensemble",
+        part=number,
+        makes=[f"ensemble/{number}/{table}" for table in MEMBER_TABLES],
+        accepted=["sets.csv"],
+    )
+
 step("rendezvous", "solvers", makes=["solvers.csv"], clock=["solver-seconds.csv"])
 step("rendezvous", "constraints", makes=["constraints.csv"])
 step(
@@ -122,7 +151,7 @@ JUDGED["rendezvous"] = [
     "inference.parquet",
     "residuals.csv",
     "readings.csv",
-    "ensemble.csv",
+    *[f"ensemble/{number}/{table}" for number in ENSEMBLE for table in MEMBER_TABLES],
     "lp-variants.csv",
     "constraints.csv",
     "studies/initial-states.parquet",

@@ -9,14 +9,16 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Generic
+from typing import Generic, TypeVar
 
 import numpy as np
 import pandas as pd
 
 from smallsat.errors import InputError
-from smallsat.quantities import Section
+from smallsat.quantities import Part
 
+# A step that takes a part of a section can be given the whole of it.
+Section = TypeVar("Section", bound=Part, covariant=True)
 Tables = Mapping[str, pd.DataFrame]
 
 
@@ -67,6 +69,8 @@ class Step(Generic[Section]):
         Folder of the study's results, for the tables of earlier steps.
     published
         Folder of the study's published values.
+    accepted
+        Folder of what the study has accepted of earlier builds.
     part
         Which part of a step that runs in parts, such as a scenario; else empty.
     shard
@@ -76,5 +80,6 @@ class Step(Generic[Section]):
     section: Section
     results: Path
     published: Path
+    accepted: Path = Path()
     part: str = ""
     shard: Shard = Shard(1, 1)

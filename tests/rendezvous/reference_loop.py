@@ -16,12 +16,11 @@ from smallsat.studies.rendezvous.guidance.law import (
     ALONG_AXIS,
     AT_HORIZON,
     AT_STAGE,
-    CONE_ONLY,
     Law,
     settings,
 )
 from smallsat.studies.rendezvous.methods.qp_solvers import Answer, SparseProgram
-from smallsat.studies.rendezvous.model.geometry import CURRENT, NATURAL
+from smallsat.studies.rendezvous.model.geometry import UPRIGHT
 
 Array = np.ndarray
 
@@ -76,7 +75,8 @@ def cone(axis: Array, half_angle: float) -> Array:
 def keep_out_planes(law: Law, state: Array, end: Array) -> Array:
     """Normals of the rotating plane, (N + 1, 3) (3.5, 3.6)."""
     steps = law.horizons[0]
-    first = state[:3] / np.linalg.norm(state[:3])
+    upright = np.array([1.0, 1.0, 0.0 if law.plane_turn == UPRIGHT else 1.0])
+    first = upright * state[:3] / np.linalg.norm(upright * state[:3])
     about = np.cross(first, end)
     angle = np.arctan2(np.linalg.norm(about), first @ end)
     about = about / np.linalg.norm(about)
@@ -85,9 +85,7 @@ def keep_out_planes(law: Law, state: Array, end: Array) -> Array:
     if turn > largest:
         turn = largest
         towards = np.cross(about, first)
-        natural = np.array([first[1], -first[0], 0.0])
-        wanted = {NATURAL: natural, CURRENT: state[3:]}.get(law.plane_rule, towards)
-        if towards @ wanted < 0:
+        if towards @ np.array([first[1], -first[0], 0.0]) < 0:
             turn = -turn
     rotations = [scipy.linalg.expm(i * turn * _cross(about)) for i in range(steps + 1)]
     return np.array([rotation @ first for rotation in rotations])
@@ -199,8 +197,6 @@ def phase_ended(law: Law, phase: int, state: Array, time: float) -> bool:
     if phase == 0 and np.any(cone(axis, law.cone_angles[0]) @ offset > 0):
         return False
     kind, distance = law.switches[phase], law.switch_distances[phase]
-    if kind == CONE_ONLY:
-        return True
     return bool((offset @ axis if kind == ALONG_AXIS else np.linalg.norm(offset)) <= distance)
 
 

@@ -1,8 +1,11 @@
 """The compiled closed loop, against the plain one and its own ledger."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 import reference_loop
+from scipy.integrate import solve_ivp
 
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
 from smallsat.studies.rendezvous.guidance import law as guidance
@@ -10,6 +13,7 @@ from smallsat.studies.rendezvous.guidance.controller import memory_for, next_con
 from smallsat.studies.rendezvous.methods import constraint_check, qp_solvers
 from smallsat.studies.rendezvous.model.prediction import transition
 from smallsat.studies.rendezvous.simulation.closed_loop import simulate
+from smallsat.studies.rendezvous.simulation.motion import add_burns
 
 CASES = ["v-bar", "r-bar", "rotating"]
 
@@ -180,3 +184,27 @@ def test_linear_motion_is_the_loop_s(law, chaser):
     samples = table[(table["place"] == "sample")].groupby(["phase", "constraint"]).size()
     assert samples["far", "keep out"] == flown.steps[0, 0]
     assert samples["final", "speed"] == flown.steps[0, 2]
+
+
+def test_burns_in_linear_motion_are_those_of_constant_force():
+    """Change of state by burns from now on, against an integration to 1e-9; 1e-6 m and m/s."""
+    n, burn_time = 0.00114, 28.0
+    change = np.array([0.17, -0.11, 0.05])
+    durations = burn_time * np.abs(change)
+    start = np.array([120.0, -900.0, 40.0, 0.3, -0.2, 0.1])
+
+    def motion(time, state):
+        force = np.where(time < durations, np.sign(change) / burn_time, 0.0)
+        return rate_matrix(n) @ state + np.concatenate([np.zeros(3), force])
+
+    state = start.copy()
+    for begin, end in pairwise(sorted({0.0, *durations, 30.0})):
+        state = solve_ivp(motion, (begin, end - 1e-12), state, rtol=1e-12, atol=1e-12).y[:, -1]
+    found = start.copy()
+    add_burns(burn_time, n, change, found)
+    found = transition(rate_matrix(n), 30.0) @ found
+    np.testing.assert_allclose(found[:3], state[:3], atol=2e-5)
+    np.testing.assert_allclose(found[3:], state[3:], atol=2e-6)
+    at_once = start.copy()
+    add_burns(0.0, n, change, at_once)
+    np.testing.assert_array_equal(at_once, start + np.concatenate([np.zeros(3), change]))

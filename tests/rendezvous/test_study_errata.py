@@ -91,3 +91,12 @@ def test_appendix_caption(section, tmp_path, grounds):
     assert study_errata.appendix_caption(grounds("rendezvous", section, tmp_path)).holds
     domain(tmp_path, 1.0)
     assert not study_errata.appendix_caption(grounds("rendezvous", section, tmp_path)).holds
+
+
+def test_docking_recommendation(section, grounds):
+    """It contradicts its own section, unless the longest tested sample time were recommended."""
+    found = study_errata.docking_recommendation(grounds("rendezvous", section, NOWHERE))
+    assert found.holds
+    longest = {"section-4-4/recommended-docking-sample-time/max": "10"}
+    changed = grounds("rendezvous", section, NOWHERE, longest)
+    assert not study_errata.docking_recommendation(changed).holds

@@ -19,6 +19,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--config", required=True, type=json.loads, help="what it depends on, JSON")
     parser.add_argument("--results", required=True, type=Path, help="folder of its results")
     parser.add_argument("--published", default=Path(), type=Path, help="folder of its values")
+    parser.add_argument("--accepted", default=Path(), type=Path, help="folder of what it accepts")
     parser.add_argument("--part", default="", help="of a step that runs in parts")
     parser.add_argument("--shard", default="1-of-1", help="of a step that is shared out")
 
@@ -29,6 +30,7 @@ def main(arguments: argparse.Namespace) -> None:
         arguments.config,
         arguments.results,
         arguments.published,
+        arguments.accepted,
         arguments.part,
         Shard.parse(arguments.shard),
     )

@@ -24,7 +24,7 @@ Horizon = Annotated[Integer, Interval(ge=1, le=120)]
 Generations = Annotated[Integer, Interval(ge=0, le=1000)]
 Degree = Annotated[Integer, Interval(ge=0, le=8)]
 Runs = Annotated[Integer, Interval(ge=2, le=100000)]
-Switch = Literal["cone", "distance", "along axis"]
+Angle = Literal["half", "full"]
 
 
 class Spacecraft(Part):
@@ -60,9 +60,9 @@ class Phases(Part):
 
 
 class LinearProgram(Part):
-    """Set point of r1, factor of Q, R, factor of Q at the end."""
+    """Whether it has the set point too, factor of Q, R, factor of Q at the end."""
 
-    set_point: NonNegative
+    set_point: StrictBool
     state_weight: Positive
     control_weight: Positive
     terminal_weight: NonNegative
@@ -71,10 +71,12 @@ class LinearProgram(Part):
 class Readings(Part):
     """How the document is read where it can be read in several ways."""
 
-    cone_angle: Literal["half", "full"]
     r_bar: Literal["above", "below"]
-    plane_rule: Literal["shortest", "natural", "current"]
-    switches: Annotated[tuple[Switch, Switch, Switch], Len(3, 3)]
+    approach_cone: Angle
+    docking_cone: Angle
+    planes: Literal["great circle", "upright"]
+    switches: Literal["distance", "along axis"]
+    actuation: Literal["impulses", "burns"]
     set_point_time: Literal["start", "horizon", "stage"]
     reference_moves: StrictBool
     delta_v: Literal["2-norm", "1-norm", "resultant", "plane and normal"]
@@ -83,8 +85,8 @@ class Readings(Part):
 class Inferred(Part):
     """What the document never prints; distances with a name of their own are r1, r2 and r3.
 
-    The set points and the switches are in shares of r1 and r2, the rate of the plane in mean
-    motions, and the terminal weight is Qf as a multiple of Q; 0 is the Riccati solution.
+    The set points and the switches are in shares of r1 and r2, and the terminal weight is Qf as a
+    multiple of Q; 0 is the Riccati solution.
     """
 
     mean_motion_rad_s: Positive
@@ -96,7 +98,6 @@ class Inferred(Part):
     switch_2: Positive
     end_distance_m: Positive
     speed_bound_m_s: Positive
-    plane_rate: Positive
     rotation_rate_rad_s: Number
     terminal_weight: NonNegative
     lp: LinearProgram
@@ -110,7 +111,6 @@ class Bounds(Part):
     keep_out_m: Range[Number]
     mean_motion_rad_s: Range[Number]
     overshoot_m: Range[Number]
-    plane_rate: Range[Number]
     rotation_rate_rad_s: Range[Number]
     set_point_1: Range[Number]
     set_point_2: Range[Number]
@@ -119,19 +119,34 @@ class Bounds(Part):
     switch_2: Range[Number]
 
 
+class Ensemble(Part):
+    """Acceptable sets that claims are judged over, and how much is flown with each."""
+
+    sets: Annotated[Integer, Interval(ge=1, le=100)]
+    samples: Annotated[Integer, Interval(ge=10, le=100000)]
+    states: Annotated[Integer, Interval(ge=2, le=100000)]
+    runs: Runs
+    agree: Annotated[Number, Gt(0.5), Le(1)]
+
+
 class Inference(Part):
     """The search for what is not printed: its size, the errors it assumes, what it accepts."""
 
     seed: Seed
     population: Annotated[Integer, Interval(ge=8, le=1000)]
     generations: Generations
-    chain: Generations
+    starts: Count
+    axes_below: Positive
     step_error: Positive
     delta_v_share: Positive
     delta_v_error_m_s: Positive
     time_share: Positive
-    acceptable: Annotated[Number, Ge(1)]
-    flown: Annotated[Integer, Interval(ge=1, le=1000)]
+    infeasible_share: Positive
+    on_boundary: Positive
+    just_behind: Positive
+    axis_error: Positive
+    acceptable: Annotated[Number, Interval(ge=1)]
+    ensemble: Ensemble
     bounds: Bounds
 
 
@@ -274,6 +289,7 @@ class Flight(Part):
     start: Start
     port_m: Vector
     phases: Phases
+    plane_rate: Positive
     inferred: Inferred
     truth: Truth
 

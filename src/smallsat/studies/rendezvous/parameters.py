@@ -11,19 +11,18 @@ from smallsat.studies.rendezvous.guidance.law import (
     AT_HORIZON,
     AT_STAGE,
     AT_START,
-    CONE_ONLY,
     DISTANCE,
     PHASES,
     Law,
 )
-from smallsat.studies.rendezvous.model.geometry import CURRENT, NATURAL, SHORTEST
+from smallsat.studies.rendezvous.model.geometry import GREAT_CIRCLE, UPRIGHT
 
 # The five manoeuvres of Section 3.6.
 CASES = ("v-bar", "r-bar", "rotating", "no-set-point", "lp")
 V_BAR = (0.0, 1.0, 0.0)
 R_BAR = {"above": (1.0, 0.0, 0.0), "below": (-1.0, 0.0, 0.0)}
-PLANE_RULES = {"shortest": SHORTEST, "natural": NATURAL, "current": CURRENT}
-SWITCHES = {"cone": CONE_ONLY, "distance": DISTANCE, "along axis": ALONG_AXIS}
+PLANES = {"great circle": GREAT_CIRCLE, "upright": UPRIGHT}
+SWITCHES = {"distance": DISTANCE, "along axis": ALONG_AXIS}
 SET_POINT_TIMES = {"start": AT_START, "horizon": AT_HORIZON, "stage": AT_STAGE}
 # Names that the studies of chapter 4 have for the phases.
 STUDY_PHASES = ("rendezvous", "approach", "docking")
@@ -41,9 +40,10 @@ def law(section: Flight, case: str = "v-bar") -> Law:
     inferred = section.inferred
     readings = inferred.readings
     phases = [section.phases[name] for name in PHASES]
-    share = CONE_SHARES[readings.cone_angle]
+    approach, docking = CONE_SHARES[readings.approach_cone], CONE_SHARES[readings.docking_cone]
+    switch = SWITCHES[readings.switches]
+    craft = section.spacecraft
     r1, r2 = inferred.keep_out_m, inferred.overshoot_m
-    far, mid, final = (SWITCHES[name] for name in readings.switches)
     common = Law(
         mean_motion=inferred.mean_motion_rad_s,
         sample_times=tuple(phase.sample_time_s for phase in phases),
@@ -52,12 +52,15 @@ def law(section: Flight, case: str = "v-bar") -> Law:
         control_weights=np.array([[phase.control_weight] * 3 for phase in phases], dtype=float),
         # The cone of the docking program is no penalty but a constraint (Section 3.3.1).
         penalties=(phases[0].penalty, phases[1].penalty, 0.0),
-        cone_angles=tuple(share * np.radians(phase.cone_angle_deg) for phase in phases),
+        cone_angles=tuple(
+            share * np.radians(phase.cone_angle_deg)
+            for share, phase in zip((approach, approach, docking), phases, strict=True)
+        ),
         control_bounds=tuple(phase.control_bound_m_s for phase in phases),
         keep_out=r1,
         overshoot=r2,
         set_points=(inferred.set_point_1 * r1, inferred.set_point_2 * r2),
-        switches=(far, mid, final),
+        switches=(switch, switch, DISTANCE),
         switch_distances=(
             inferred.switch_1 * r1,
             inferred.switch_2 * r2,
@@ -66,11 +69,12 @@ def law(section: Flight, case: str = "v-bar") -> Law:
         speed_bound=inferred.speed_bound_m_s,
         axis=V_BAR,
         port=float(np.linalg.norm(section.port_m)),
-        plane_rate=inferred.plane_rate,
-        plane_rule=PLANE_RULES[readings.plane_rule],
+        plane_rate=section.plane_rate,
+        plane_turn=PLANES[readings.planes],
         terminal_weights=(inferred.terminal_weight,) * 3,
         set_point_time=SET_POINT_TIMES[readings.set_point_time],
         reference_moves=readings.reference_moves,
+        burn_time=craft.mass_kg / craft.thruster_N if readings.actuation == "burns" else 0.0,
     )
     if case == "r-bar":
         return common.with_(axis=R_BAR[readings.r_bar])
@@ -81,7 +85,7 @@ def law(section: Flight, case: str = "v-bar") -> Law:
     if case == "lp":
         lp, weights = inferred.lp, common.state_weights[0]
         return common.with_(
-            set_points=(lp.set_point * r1, common.set_points[1]),
+            set_points=(lp.set_point * common.set_points[0], common.set_points[1]),
             norm_weights=lp.state_weight * weights,
             norm_terminal_weights=lp.terminal_weight * weights,
             norm_control_weights=np.full(3, lp.control_weight),

@@ -1,8 +1,7 @@
 """Predicates of the document's prose claims of chapters 2 and 3.
 
-What rests on undisclosed parameters is judged over the acceptable
-sets of the inference (``ensemble.csv``): it holds or fails where all of them agree, and is
-undecided where they do not.
+What rests on undisclosed parameters is judged over the ensemble of acceptable sets, see
+`smallsat.studies.rendezvous.evidence.ensemble`.
 """
 
 from typing import Any
@@ -22,10 +21,10 @@ from smallsat.studies.rendezvous.evidence.case_tables import (
     phase_cells,
     total_cells,
 )
+from smallsat.studies.rendezvous.evidence.ensemble import over_ensemble
 from smallsat.studies.rendezvous.evidence.observations import FIRST_SECOND
 from smallsat.studies.rendezvous.guidance.law import PHASES
-from smallsat.studies.rendezvous.inference.search import printed_steps
-from smallsat.studies.rendezvous.inference.summary import STRUCTURES, acceptable, identified
+from smallsat.studies.rendezvous.inference.misfit import printed_steps
 from smallsat.studies.rendezvous.model.columns import CHANGE, STATE
 from smallsat.studies.rendezvous.model.geometry import cone_faces, rotated
 from smallsat.studies.rendezvous.parameters import law, start_state
@@ -40,31 +39,21 @@ BETWEEN_SHARE, BETWEEN_M = 0.02, 0.02  # of a bound, and m, between samples
 TRUTH_DV = 0.05  # m/s that the nonlinear truth may change a phase by
 
 
-def _totals(grounds: Grounds) -> Any:
-    """Times, s, and delta-v of whole manoeuvres: a row a set, columns (quantity, case)."""
-    table = grounds.table("ensemble.csv")
-    sums = table.groupby(["set", "case"])[["time_s", "delta_v_m_s"]].sum()
-    done = table.groupby(["set", "case"])["ended"].all()
-    return sums.where(done).unstack("case")
+def _totals(grounds: Grounds[Configuration]) -> Any:
+    """Time, s, and delta-v of whole manoeuvres by case; LookupError where one does not dock."""
+    table = grounds.table("phases.csv")
+    reading = grounds.section.inferred.readings.delta_v
+    sums = table.groupby("flight")[["time_s", reading]].sum()
+    done = table.groupby("flight")["ended"].all()
+    return sums.rename(columns={reading: "delta_v_m_s"}).where(done)
 
 
-def _over_sets(agree: Any, evidence: str) -> Judgement:
-    """Agreement of the acceptable sets that can say something; NaN where one cannot."""
-    known = agree.dropna().astype(bool)
-    text = f"{int(known.sum())} of {len(known)} acceptable parameter sets agree; {evidence}"
-    if len(known) == 0:
-        return Judgement("undecided", f"no acceptable set ends all the cases; {evidence}")
-    if known.all():
-        return Judgement("holds", text)
-    return Judgement("fails" if not known.any() else "undecided", text)
-
-
-def _compared(values: Any, condition: Any) -> Any:
-    return condition.where(values.notna().all(axis=1)).astype(object)
-
-
-def _range(series: Any, digits: int = 1) -> str:
-    return f"{series.min():.{digits}f} to {series.max():.{digits}f}"
+def _docked(grounds: Grounds[Configuration], *cases: str) -> Any:
+    """Totals of these cases; LookupError where one of them does not dock."""
+    totals = _totals(grounds).loc[list(cases)]
+    if totals.isna().any(axis=None):
+        raise LookupError("a case does not dock")
+    return totals
 
 
 def six_thrusters_move_in_six_degrees(grounds: Grounds[Configuration]) -> Judgement:
@@ -87,6 +76,7 @@ def six_thrusters_move_in_six_degrees(grounds: Grounds[Configuration]) -> Judgem
     )
 
 
+@over_ensemble
 def one_norm_is_sparser(grounds: Grounds[Configuration]) -> Judgement:
     """More of the far range's control components must be off with the LP than with the QP."""
     bound = grounds.section.phases.far.control_bound_m_s
@@ -118,6 +108,7 @@ def _largest(
     return float(own[list(places)].max().max())
 
 
+@over_ensemble
 def keep_out_zone_is_kept(grounds: Grounds[Configuration]) -> Judgement:
     """The cases' far ranges are searched for their deepest passage, between samples too."""
     keep_out = law(grounds.section, "v-bar").keep_out
@@ -134,6 +125,7 @@ def keep_out_zone_is_kept(grounds: Grounds[Configuration]) -> Judgement:
     )
 
 
+@over_ensemble
 def cone_violated_slightly(grounds: Grounds) -> Judgement:
     """The chaser must never be far outside the cone at samples of the three cases' mid ranges."""
     by_case = {
@@ -149,15 +141,14 @@ def cone_violated_slightly(grounds: Grounds) -> Judgement:
     )
 
 
+@over_ensemble
 def r_bar_takes_less(grounds: Grounds) -> Judgement:
     """Time and delta-v of Case 2 must be below those of Case 1."""
-    totals = _totals(grounds)
-    pairs = totals[[("time_s", "v-bar"), ("time_s", "r-bar")]]
-    time = totals[("time_s", "v-bar")] - totals[("time_s", "r-bar")]
-    fuel = totals[("delta_v_m_s", "v-bar")] - totals[("delta_v_m_s", "r-bar")]
-    return _over_sets(
-        _compared(pairs, (time > 0) & (fuel > 0)),
-        f"it saves {_range(time, 0)} s and {_range(fuel, 2)} m/s; printed are "
+    totals = _docked(grounds, "v-bar", "r-bar")
+    time, fuel = totals.loc["v-bar"] - totals.loc["r-bar"]
+    return judged(
+        time > 0 and fuel > 0,
+        f"it saves {time:.0f} s and {fuel:.2f} m/s; printed are "
         f"{_printed_less(grounds, 'time', 'v-bar', 'r-bar'):.0f} s and "
         f"{_printed_less(grounds, 'total-delta-v', 'v-bar', 'r-bar'):.2f} m/s",
     )
@@ -171,76 +162,85 @@ def _printed_less(grounds: Grounds, quantity: str, case: str, other: str) -> flo
     return _printed(grounds, case, quantity) - _printed(grounds, other, quantity)
 
 
+@over_ensemble
 def rotating_is_comparable(grounds: Grounds) -> Judgement:
     """Case 3's delta-v must lie within a tenth of the interval between Cases 1 and 2."""
-    fuel = _totals(grounds)["delta_v_m_s"][["v-bar", "r-bar", "rotating"]]
-    low, high = fuel[["v-bar", "r-bar"]].min(axis=1), fuel[["v-bar", "r-bar"]].max(axis=1)
-    inside = (fuel["rotating"] >= (1 - LITTLE) * low) & (fuel["rotating"] <= (1 + LITTLE) * high)
-    return _over_sets(
-        _compared(fuel, inside),
-        f"Case 3 needs {_range(fuel['rotating'])} m/s, Cases 1 and 2 {_range(fuel['v-bar'])} and "
-        f"{_range(fuel['r-bar'])}; comparable is read as within a tenth of their interval",
+    first, second, third = _docked(grounds, "v-bar", "r-bar", "rotating")["delta_v_m_s"]
+    low, high = min(first, second), max(first, second)
+    return judged(
+        (1 - LITTLE) * low <= third <= (1 + LITTLE) * high,
+        f"Case 3 needs {third:.2f} m/s, Cases 1 and 2 {first:.2f} and {second:.2f}; comparable is "
+        f"read as within a tenth of their interval",
     )
 
 
-def difference_lies_close(grounds: Grounds) -> Judgement:
-    """Case 3's delta-v must differ most close to the target, as printed and over the sets."""
-    cells = phase_cells(grounds.ledger).set_index(["case", "phase"])["delta_v_m_s"].to_dict()
-    printed = {
-        other: {phase: cells["rotating", phase] - cells[other, phase] for phase in PHASES}
+@over_ensemble
+def difference_lies_close(grounds: Grounds[Configuration]) -> Judgement:
+    """Case 3's delta-v must differ most close to the target, from both other cases.
+
+    A difference is taken absolutely and as a share of the phase; where the two answers, or the
+    comparisons with Cases 1 and 2, are not one, the sentence can be read either way.
+    """
+    reading = grounds.section.inferred.readings.delta_v
+    ours: Any = grounds.table("phases.csv").pivot(index="phase", columns="flight", values=reading)
+    cells: Any = phase_cells(grounds.ledger)
+    printed = cells.pivot(index="phase", columns="case", values="delta_v_m_s")
+    _docked(grounds, "v-bar", "r-bar", "rotating")
+
+    def close(table: Any, other: str, share: bool) -> bool:
+        difference = (table["rotating"] - table[other]).abs()
+        if share:
+            difference = difference / table[other]
+        return bool(difference[["mid", "final"]].max() > difference["far"])
+
+    answers = {
+        (name, other, share): close(table, other, share)
+        for name, table in (("printed", printed), ("ours", ours))
         for other in ("v-bar", "r-bar")
+        for share in (False, True)
     }
-    table = grounds.table("ensemble.csv")
-    fuel: Any = table.pivot(index="set", columns=["case", "phase"], values="delta_v_m_s")
-    agree = pd.Series(True, index=fuel.index)
-    for other in printed:
-        far = (fuel["rotating"]["far"] - fuel[other]["far"]).abs()
-        close = (
-            (fuel["rotating"][["mid", "final"]] - fuel[other][["mid", "final"]]).abs().sum(axis=1)
-        )
-        agree &= close > far
-    said = all(
-        abs(one["far"]) < max(abs(one["mid"]), abs(one["final"])) for one in printed.values()
-    )
+    own = [answer for (name, _, _), answer in answers.items() if name == "ours"]
     text = "; ".join(
-        f"against Case {1 + list(printed).index(other)} "
-        + ", ".join(f"{phase} {one[phase]:+.2f}" for phase in PHASES)
-        for other, one in printed.items()
+        f"{name}: in m/s against Case 1 {_yes(answers[name, 'v-bar', False])}, against Case 2 "
+        f"{_yes(answers[name, 'r-bar', False])}, in shares {_yes(answers[name, 'v-bar', True])} "
+        f"and {_yes(answers[name, 'r-bar', True])}"
+        for name in ("printed", "ours")
     )
-    if not said:
-        return Judgement(
-            "fails",
-            f"by the printed tables themselves the largest difference to Case 1 lies in the far "
-            f"range (m/s, {text}); of the acceptable sets {int(agree.sum())} of {len(agree)} have "
-            f"the larger difference close to the target in both comparisons",
-        )
-    return _over_sets(agree.astype(object), f"printed: {text}")
+    if len(set(own)) > 1:
+        return Judgement("undecided", text)
+    return judged(own[0], text)
 
 
+def _yes(answer: bool) -> str:
+    return "yes" if answer else "no"
+
+
+@over_ensemble
 def rotation_adds_little(grounds: Grounds) -> Judgement:
     """Case 3 is compared with Case 1, the same approach to a target at rest."""
-    fuel = _totals(grounds)["delta_v_m_s"][["v-bar", "rotating"]]
-    added = fuel["rotating"] - fuel["v-bar"]
-    return _over_sets(
-        _compared(fuel, added < LITTLE * fuel["v-bar"]),
-        f"the rotating target takes {_range(added, 2)} m/s more than Case 1; printed is "
+    first, third = _docked(grounds, "v-bar", "rotating")["delta_v_m_s"]
+    return judged(
+        third - first < LITTLE * first,
+        f"the rotating target takes {third - first:+.2f} m/s beside Case 1; printed is "
         f"{_printed_less(grounds, 'total-delta-v', 'rotating', 'v-bar'):+.2f} m/s. The "
         f"rotation rate is inferred too, and other rates were not printed",
     )
 
 
+@over_ensemble
 def without_set_point_takes_longer(grounds: Grounds) -> Judgement:
     """The QP without set point must take longer by a factor of `MUCH` at least."""
-    time = _totals(grounds)["time_s"][["v-bar", "no-set-point"]]
+    time = _docked(grounds, "v-bar", "no-set-point")["time_s"]
     factor = time["no-set-point"] / time["v-bar"]
     cells = total_cells(grounds.ledger).set_index("case")["time_min"]
-    return _over_sets(
-        _compared(time, factor > MUCH),
-        f"it takes {_range(factor, 2)} times as long; printed is "
+    return judged(
+        factor > MUCH,
+        f"it takes {factor:.2f} times as long; printed is "
         f"{cells['no-set-point'] / cells['v-bar']:.2f}",
     )
 
 
+@over_ensemble
 def guided_around_the_zone(grounds: Grounds[Configuration]) -> Judgement:
     """The angle that is flown near the zone is compared with and without set point."""
     paths = grounds.table("paths.parquet")
@@ -267,6 +267,7 @@ def _way_around(flights: pd.DataFrame, case: str) -> tuple[float, bool]:
     return float(np.degrees(angle[-1] - angle[0])), bool((own["phase"] == "mid").any())
 
 
+@over_ensemble
 def lp_takes_another_way(grounds: Grounds) -> Judgement:
     """The far ranges of QP and LP must go about the target in opposite directions."""
     flights = grounds.table("flights.parquet")
@@ -278,21 +279,17 @@ def lp_takes_another_way(grounds: Grounds) -> Judgement:
     return judged(quadratic * linear < 0.0, text)
 
 
+@over_ensemble
 def lp_saves_fuel(grounds: Grounds) -> Judgement:
-    """Over the acceptable sets the LP of the configuration must save delta-v and take longer."""
-    totals = _totals(grounds)
-    fuel = totals["delta_v_m_s"].reindex(columns=["v-bar", "lp", "no-set-point"])
-    time = totals["time_s"].reindex(columns=["v-bar", "lp"])
-    agree = (fuel["lp"] < fuel["v-bar"]) & (time["lp"] > time["v-bar"])
+    """The LP of the configuration must save delta-v and take longer than the QP."""
+    totals = _docked(grounds, "v-bar", "lp")
+    fuel, time = totals["delta_v_m_s"], totals["time_s"]
     cells = total_cells(grounds.ledger).set_index("case")["delta_v_m_s"]
-    variants = grounds.table("lp-variants.csv")
-    docked = variants[variants["docked"]]
-    return _over_sets(
-        _compared(time, agree),
-        f"the LP needs {_range(fuel['lp'])} m/s, the QP {_range(fuel['v-bar'])}. The printed "
-        f"values ({cells['lp']:g} against {cells['v-bar']:g}) agree with it, but the QP without "
-        f"set point is printed with less than both ({cells['no-set-point']:g}). Of {len(variants)} "
-        f"sets of LP weights {len(docked)} reach the target",
+    return judged(
+        fuel["lp"] < fuel["v-bar"] and time["lp"] > time["v-bar"],
+        f"the LP needs {fuel['lp']:.2f} m/s, the QP {fuel['v-bar']:.2f}; printed are "
+        f"{cells['lp']:g} and {cells['v-bar']:g}, and {cells['no-set-point']:g} for the QP without "
+        f"set point. The weights of the LP are not printed",
     )
 
 
@@ -382,6 +379,7 @@ def delta_v_is_no_sum_of_plane_lengths(grounds: Grounds[Configuration]) -> Judge
     )
 
 
+@over_ensemble
 def truth_changes_no_step_count(grounds: Grounds) -> Judgement:
     """The cases are flown anew in the nonlinear model, by impulses as the guidance assumes them."""
     table = grounds.table("truth.csv")
@@ -399,6 +397,7 @@ def truth_changes_no_step_count(grounds: Grounds) -> Judgement:
     )
 
 
+@over_ensemble
 def constraints_hold_between_samples(grounds: Grounds[Configuration]) -> Judgement:
     """Bounds must hold at every sample, docking speed and cone between them unless softened."""
     section = grounds.section
@@ -430,22 +429,4 @@ def constraints_hold_between_samples(grounds: Grounds[Configuration]) -> Judgeme
         f"controls reach {100 * control:.4f} % of their bounds; once no constraint is softened any "
         f"more, docking speeds reach {100 * speed:.1f} % of theirs between samples, and the chaser "
         f"is at most {1000 * cone:.1f} mm outside the docking cone",
-    )
-
-
-def inference_is_underdetermined(grounds: Grounds[Configuration]) -> Judgement:
-    """The acceptable sets must leave parameters open."""
-    section = grounds.section
-    evaluated = grounds.table("inference.parquet")
-    table = identified(section, evaluated)
-    sets = acceptable(section, evaluated)
-    fixed = table[table["verdict"] == "identified"]["parameter"].to_list()
-    loose = table[table["verdict"] == "loosely identified"]["parameter"].to_list()
-    cells = len(grounds.table("residuals.csv"))
-    return judged(
-        len(fixed) < len(table),
-        f"{len(table)} numbers and {len(STRUCTURES)} readings for {cells} cells. Over {len(sets)} "
-        f"acceptable sets of {len(evaluated)} evaluated ones {', '.join(fixed) or 'none'} vary by "
-        f"a quarter of their bounds at most; {', '.join(loose) or 'none'} loosely; the others are "
-        f"free or coupled",
     )

@@ -7,7 +7,7 @@ from smallsat.evidence.errata import Proof
 from smallsat.evidence.grounds import Grounds
 from smallsat.studies.rendezvous.configuration import Configuration
 from smallsat.studies.rendezvous.evidence.case_tables import CASE_TABLES
-from smallsat.studies.rendezvous.inference.search import printed_steps
+from smallsat.studies.rendezvous.inference.misfit import printed_steps
 from smallsat.studies.rendezvous.model.geometry import cone_faces, rotated
 from smallsat.studies.rendezvous.model.prediction import terminal_weight, transition
 from smallsat.studies.rendezvous.parameters import law, start_state
@@ -77,25 +77,6 @@ def thrust_as_delta_v(grounds: Grounds[Configuration]) -> Proof:
         f"Thrust and delta-v differ by a time over the mass: the largest delta-v of a step is "
         f"{bound:g} m/s, {seconds:.0f} s of {craft.thruster_N:g} N on {craft.mass_kg:g} "
         f"kg; Section 2.1.2 cites the same source for thrusts up to {printed.value:g} N",
-    )
-
-
-def port_axis(grounds: Grounds[Configuration]) -> Proof:
-    """Table 3.2: the port's direction in the body against the approach axis of Case 1."""
-    section = grounds.section
-    port = np.array(section.port_m, dtype=float)
-    axis = np.array(law(section, "v-bar").axis)
-    cosine = port @ axis / np.linalg.norm(port) / np.linalg.norm(axis)
-    angle = float(np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0))))
-    cone = section.phases.final.cone_angle_deg
-    return Proof(
-        angle > cone,
-        f"port and approach axis {angle:.0f} deg apart",
-        "0 deg, with the body's x axis along the approach axis",
-        f"With the body's axes along those of the orbit the port lies {angle:.0f} deg off the "
-        f"V-bar, and the cone of {cone:g} deg opens along the V-bar. Sections 3.6.1 and 3.6.3 "
-        f"dock at a port in the direction of the cone, so the body is turned, by an attitude "
-        f"that is not printed",
     )
 
 
@@ -260,4 +241,39 @@ def approach_end_vector(grounds: Grounds[Configuration]) -> Proof:
         f"{int(wrong.sum())} of {len(mid)} samples of our mid ranges, mirrored to a port on "
         f"the other side of the target, although they lie farther off than twice r2 = "
         f"{overshoot:.1f} m, inferred. Section 3.3 speaks of the distance",
+    )
+
+
+def impulse_matrix(grounds: Grounds[Configuration]) -> Proof:
+    """Section 2.1.1 against Eq. 3.1: which of B and B-bar the transition matrix is applied to."""
+    given = law(grounds.section, "v-bar")
+    matrix = transition(rate_matrix(given.mean_motion), given.sample_times[0])
+    push = np.vstack([np.zeros((3, 3)), np.eye(3)])
+    once, twice = matrix @ push, matrix @ matrix @ push
+    return Proof(
+        abs(twice[1, 1] - once[1, 1]) > 1.0,
+        f"one put into the other, an impulse of 1 m/s moves the chaser by {twice[1, 1]:.1f} m in "
+        f"a step of {given.sample_times[0]:g} s",
+        f"by {once[1, 1]:.1f} m",
+        "Section 2.1.1 has B = A B-bar, Eq. 3.1 B-bar = A B; each is right in its own names, and "
+        "one put into the other applies the transition matrix twice",
+    )
+
+
+def printed_drag(flow: np.ndarray, normals: np.ndarray) -> np.ndarray:
+    """The right side of Eq. 5.5 for plates of unit area in unit air, with unit coefficient."""
+    cosines = np.maximum(normals @ flow / np.linalg.norm(flow), 0.0)
+    return -0.5 * (flow @ flow) * cosines.sum()
+
+
+def drag_direction(_: Grounds) -> Proof:
+    """Eq. 5.5: what stands on the right, for a box in a flow, against what a force is."""
+    flow = np.array([0.3, -0.8, 0.5])
+    found = printed_drag(flow, np.vstack([np.eye(3), -np.eye(3)]))
+    return Proof(
+        np.shape(found) != np.shape(flow),
+        f"{np.size(found)} number",
+        f"{np.size(flow)} components",
+        "The left side is a force in the body's frame. The square of the relative speed leaves its "
+        "direction out, and no plate's normal stands in the sum by itself",
     )

@@ -135,3 +135,16 @@ def _values(grounds: Grounds, place: str) -> list[float]:
 
 def _list(values: list[float]) -> str:
     return ", ".join(f"{value:g}" for value in values)
+
+
+def docking_recommendation(grounds: Grounds) -> Proof:
+    """Section 4.4: the recommended sample times against the longest tested one."""
+    tested = _values(grounds, "section-4-4/docking-sample-times-tested")
+    most = grounds.ledger.value("section-4-4/recommended-docking-sample-time/max").value
+    return Proof(
+        max(tested) > most,
+        f"{_list(tested[1:3])} s, to minimise delta-v",
+        f"{max(tested):g} s, by the sentences before",
+        f"the same section says that the smallest and the largest delta-v decrease with longer "
+        f"sample times, of which {max(tested):g} s is the longest tested: {BY_ITSELF}",
+    )

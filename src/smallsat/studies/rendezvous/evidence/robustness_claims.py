@@ -7,12 +7,13 @@ state do not count as independent. Manoeuvres that the time limit ends count as 
 import numpy as np
 import pandas as pd
 
-from smallsat.evidence.claims import Judgement, judged
+from smallsat.evidence.claims import Judgement
 from smallsat.evidence.effects import above, judgement, negative
 from smallsat.evidence.grounds import Grounds
 from smallsat.evidence.ledger import Ledger
 from smallsat.statistics.bootstrap import Effect, effect
 from smallsat.studies.rendezvous.configuration import Configuration
+from smallsat.studies.rendezvous.evidence.ensemble import over_ensemble
 from smallsat.studies.rendezvous.evidence.sweeps import (
     DELTA_V,
     TIME,
@@ -29,7 +30,6 @@ from smallsat.studies.rendezvous.monte_carlo.cases import (
     UNDISTURBED,
     prediction_case,
 )
-from smallsat.studies.rendezvous.monte_carlo.summaries import bounce
 from smallsat.studies.rendezvous.monte_carlo.tables import column, totals
 
 # What words are taken to mean.
@@ -69,6 +69,7 @@ def _two(grounds: Grounds, first: str, second: str) -> tuple[pd.DataFrame, pd.Da
     return a.loc[common], b.loc[common]
 
 
+@over_ensemble
 def increase_comes_from_docking(grounds: Grounds) -> Judgement:
     """Section 5.4: share of the docking phase in what the disturbances add."""
     calm, noisy = _two(grounds, UNDISTURBED, AS_DOCUMENTED)
@@ -84,6 +85,7 @@ def increase_comes_from_docking(grounds: Grounds) -> Judgement:
     return judgement(above(found, 0.5), "share of docking in the increase, to be above half", found)
 
 
+@over_ensemble
 def chaser_bounces(grounds: Grounds) -> Judgement:
     """Section 5.4: time of docking against that without disturbances."""
     calm, noisy = _two(grounds, UNDISTURBED, AS_DOCUMENTED)
@@ -94,6 +96,7 @@ def chaser_bounces(grounds: Grounds) -> Judgement:
     )
 
 
+@over_ensemble
 def guidance_is_robust(grounds: Grounds) -> Judgement:
     """Chapters 5 and 7: share of the disturbed manoeuvres that end within the limit."""
     done = by_state(grounds.table(ROBUSTNESS), AS_DOCUMENTED)["completed"].to_numpy()
@@ -101,6 +104,7 @@ def guidance_is_robust(grounds: Grounds) -> Judgement:
     return judgement(above(found, ROBUST), "share that docks within the limit, to be 95 %", found)
 
 
+@over_ensemble
 def filter_reduces_bounce(grounds: Grounds) -> Judgement:
     """Section 5.5: delta-v and time with a filter against raw measurements."""
     raw, filtered = _two(grounds, AS_DOCUMENTED, FILTERED)
@@ -121,6 +125,7 @@ def mean_deviation(grounds: Grounds, case: str, quantity: str) -> Effect:
     return effect(WORDS[quantity], mean(found), len(found), bootstrap(grounds))
 
 
+@over_ensemble
 def prediction_with_j2_helps(grounds: Grounds[Configuration]) -> Judgement:
     """Section 3.7: delta-v with J2 in the prediction against without, over inclinations."""
     table = grounds.table("studies/prediction.parquet")
@@ -147,31 +152,3 @@ def printed_deviations(ledger: Ledger) -> dict[str, float]:
         "deviation_delta_v_m_s": ledger.value(f"{place}-delta-v/monte-carlo").value,
         "deviation_time_min": ledger.value(f"{place}-tf/monte-carlo").value,
     }
-
-
-def one_distance_gives_both_deviations(grounds: Grounds[Configuration]) -> Judgement:
-    """Our own: the docking distance that gives one printed deviation gives the other one too.
-
-    At the document's time limit, between the distances of the passages; written after the first
-    runs had been seen.
-    """
-    table = bounce(grounds.results / "studies")
-    limit = grounds.section.studies.time_limit_min
-    rows = table[table["time_limit_min"] == limit].set_index("end_distance_m")
-    # Where the chaser docks in most runs the deviations fall with the distance.
-    rows = rows[rows["docked_share"] > 0.5]
-    if rows.empty:
-        raise LookupError(f"passages at {limit:g} min")
-    time, delta_v = rows["deviation_time_min"][::-1], rows["deviation_delta_v_m_s"][::-1]
-    distances = rows.index.to_numpy()[::-1]
-    wanted, minutes = printed_deviations(grounds.ledger).values()
-    if not time.min() < minutes < time.max():
-        return Judgement("fails", f"the deviation of the time is never {minutes:g} min")
-    distance = float(np.interp(minutes, time, distances))
-    there = float(np.interp(minutes, time, delta_v))
-    return judged(
-        abs(there / wanted - 1.0) < CLOSE,
-        f"at a docking distance of {100 * distance:.1f} cm the deviation of the time is "
-        f"{minutes:g} min, as printed, and that of delta-v {there:.2f} m/s, printed "
-        f"{wanted:g} m/s (interpolated; to be within {100 * CLOSE:.0f} %)",
-    )

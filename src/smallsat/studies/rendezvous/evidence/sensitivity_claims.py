@@ -19,6 +19,7 @@ from smallsat.evidence.effects import above, below, judgement, negative, togethe
 from smallsat.evidence.grounds import Grounds
 from smallsat.statistics.bootstrap import Effect, Statistic
 from smallsat.studies.rendezvous.configuration import Configuration
+from smallsat.studies.rendezvous.evidence.ensemble import over_ensemble
 from smallsat.studies.rendezvous.evidence.sweeps import (
     DELTA_V,
     STEPS,
@@ -70,6 +71,7 @@ def _rises(effects: list[Effect], reading: str) -> Judgement:
 # Section 4.1: where the manoeuvre begins.
 
 
+@over_ensemble
 def quadrants_behind_take_longer(grounds: Grounds) -> Judgement:
     """Section 4.1: median time, quadrants 3 and 4 less 1 and 2."""
     d = Domain(grounds)
@@ -77,6 +79,7 @@ def quadrants_behind_take_longer(grounds: Grounds) -> Judgement:
     return _rises(found, "median, quadrants 3 and 4 less 1 and 2")
 
 
+@over_ensemble
 def quadrants_behind_have_higher_minimum(grounds: Grounds) -> Judgement:
     """Section 4.1: lower bound of delta-v, quadrants 3 and 4 less 1 and 2."""
     d = Domain(grounds)
@@ -84,6 +87,7 @@ def quadrants_behind_have_higher_minimum(grounds: Grounds) -> Judgement:
     return _rises(found, "5 % quantile, quadrants 3 and 4 less 1 and 2")
 
 
+@over_ensemble
 def quadrant_matters_less_for_maximum(grounds: Grounds) -> Judgement:
     """Section 4.1: the shift of the lower bound of delta-v less that of the upper one."""
     d = Domain(grounds)
@@ -97,6 +101,7 @@ def _sizes_differ(one: Statistic, other: Statistic) -> Statistic:
     return lambda drawn: np.abs(one(drawn)) - np.abs(other(drawn))
 
 
+@over_ensemble
 def quadrant_alone_gives_no_range(grounds: Grounds) -> Judgement:
     """Section 4.1: share of the variance of delta-v and time that the quadrant explains."""
     d = Domain(grounds)
@@ -128,6 +133,7 @@ def _explained(values: np.ndarray, group: np.ndarray) -> Statistic:
     return statistic
 
 
+@over_ensemble
 def distance_raises_minimum(grounds: Grounds) -> Judgement:
     """Section 4.1: lower bounds of delta-v and time, farthest third less nearest third."""
     d = Domain(grounds)
@@ -138,6 +144,7 @@ def distance_raises_minimum(grounds: Grounds) -> Judgement:
     return _rises(found, "5 % quantile, farthest third less nearest third")
 
 
+@over_ensemble
 def distance_matters_more_for_maximum(grounds: Grounds) -> Judgement:
     """Section 4.1: shift of the upper bound of delta-v by distance less that by quadrant."""
     d = Domain(grounds)
@@ -158,11 +165,13 @@ def _across(grounds: Grounds, phase: str, quantity: str) -> list[Effect]:
     return [sweep.change(quantity, (n, first), (n, last), count) for n in sweep.horizons]
 
 
+@over_ensemble
 def longer_sampling_saves_rendezvous(grounds: Grounds) -> Judgement:
     """Section 4.2: delta-v from the shortest to the longest sample time, each horizon."""
     return _falls(_across(grounds, "rendezvous", DELTA_V), "median change")
 
 
+@over_ensemble
 def savings_diminish(grounds: Grounds) -> Judgement:
     """Section 4.2: the last interval of sample times saves less than every other one."""
     sweep = Sweep(grounds, "rendezvous")
@@ -184,16 +193,19 @@ def _difference(one: Statistic, other: Statistic) -> Statistic:
     return lambda drawn: one(drawn) - other(drawn)
 
 
+@over_ensemble
 def longer_sampling_needs_fewer_actuations(grounds: Grounds) -> Judgement:
     """Section 4.2: control actuations from the shortest to the longest sample time."""
     return _falls(_across(grounds, "rendezvous", STEPS), "median change")
 
 
+@over_ensemble
 def longer_sampling_takes_longer(grounds: Grounds) -> Judgement:
     """Section 4.2: time of the phase from the shortest to the longest sample time."""
     return _rises(_across(grounds, "rendezvous", TIME), "median change")
 
 
+@over_ensemble
 def faster_sampling_spreads(grounds: Grounds) -> Judgement:
     """Section 4.2: spread of delta-v from the shortest to the longest sample time."""
     sweep = Sweep(grounds, "rendezvous")
@@ -206,6 +218,7 @@ def _widenings(sweep: Sweep, quantity: str, first: float, last: float) -> list[E
     return [sweep.widening(quantity, (n, first), (n, last), count) for n in sweep.horizons]
 
 
+@over_ensemble
 def long_sampling_and_horizon_fail(grounds: Grounds) -> Judgement:
     """Section 4.2: failures, slowest two sample times and longer horizons less the other cases."""
     sweep = Sweep(grounds, "rendezvous")
@@ -221,6 +234,7 @@ def long_sampling_and_horizon_fail(grounds: Grounds) -> Judgement:
     return _rises([found], "slowest two sample times with the longer horizons less all other cases")
 
 
+@over_ensemble
 def limit_is_ample(grounds: Grounds[Configuration]) -> Judgement:
     """Section 4.2: mean time of a manoeuvre against the limit."""
     d = Domain(grounds)
@@ -231,6 +245,7 @@ def limit_is_ample(grounds: Grounds[Configuration]) -> Judgement:
     )
 
 
+@over_ensemble
 def failures_stall_on_boundary(grounds: Grounds[Configuration]) -> Judgement:
     """Section 4.2: share of the failures that end at rest on the keep-out sphere."""
     sweep = Sweep(grounds, "rendezvous")
@@ -269,13 +284,25 @@ def _horizons(sweep: Sweep, first: int, second: int, *quantities: str) -> list[E
     ]
 
 
+@over_ensemble
 def longer_horizon_saves_rendezvous(grounds: Grounds) -> Judgement:
-    """Section 4.2: delta-v and time from the first to the second horizon, each sample time."""
+    """Section 4.2: delta-v and time from the first to the second horizon, each sample time.
+
+    In general is read as on average, over the states that complete in both: the median of paired
+    changes ties at zero where a longer horizon helps only some of them.
+    """
     sweep = Sweep(grounds, "rendezvous")
     first, second = _tested(sweep.horizons, 2)[:2]
-    return _falls(_horizons(sweep, first, second, DELTA_V, TIME), "median change")
+    count = 2 * len(sweep.sample_times)
+    found = [
+        sweep.mean_change(quantity, (first, t), (second, t), count)
+        for quantity in (DELTA_V, TIME)
+        for t in sweep.sample_times
+    ]
+    return _falls(found, "change of the mean")
 
 
+@over_ensemble
 def longest_horizon_is_similar(grounds: Grounds) -> Judgement:
     """Section 4.2: delta-v and time from the second to the third horizon stay similar."""
     return _third_horizon_is_similar(grounds, "rendezvous")
@@ -292,6 +319,7 @@ def _third_horizon_is_similar(grounds: Grounds, phase: str) -> Judgement:
 # shortest horizon.
 
 
+@over_ensemble
 def longer_sampling_lowers_minimum_approach(grounds: Grounds) -> Judgement:
     """Section 4.3: lower bound of delta-v from the second to the longest sample time."""
     sweep = Sweep(grounds, "approach")
@@ -307,39 +335,63 @@ def _approach_spread(grounds: Grounds, quantity: str) -> list[Effect]:
     return _widenings(sweep, quantity, first, last)
 
 
+@over_ensemble
 def longer_sampling_spreads_approach(grounds: Grounds) -> Judgement:
     """Section 4.3: spread of delta-v from the second to the longest sample time."""
     return _rises(_approach_spread(grounds, DELTA_V), "relative change")
 
 
+@over_ensemble
 def longer_sampling_spreads_approach_time(grounds: Grounds) -> Judgement:
     """Section 4.3: spread of the time from the second to the longest sample time."""
     return _rises(_approach_spread(grounds, TIME), "relative change")
 
 
+@over_ensemble
 def short_approach_horizon_is_infeasible(grounds: Grounds) -> Judgement:
-    """Section 4.3: shortest horizon and sample time: approaches that meet an infeasible program."""
+    """Section 4.3: shares of approaches that meet an infeasible program, at the shortest horizon.
+
+    At the shortest sample time they must be most, and more than at every other one: the sentence
+    says what sets that sample time apart.
+    """
     sweep = Sweep(grounds, "approach")
-    rows = sweep.rows(sweep.horizons[0], sweep.sample_times[0])
-    found = [sweep.effect("share", mean(infeasible_share(rows, "approach")), len(rows))]
+    first, *others = sweep.sample_times
+    rows = {t: sweep.rows(sweep.horizons[0], t) for t in sweep.sample_times}
+    shares = pd.DataFrame(
+        {t: pd.Series(infeasible_share(own, "approach"), own.index) for t, own in rows.items()}
+    ).dropna()
+    count, size = 1 + len(others), len(shares)
+    most = [sweep.effect(f"share at {first:g} s", mean(shares[first].to_numpy()), size, count)]
+    apart = [
+        sweep.effect(
+            f"{first:g} s less {t:g} s", mean((shares[first] - shares[t]).to_numpy()), size, count
+        )
+        for t in others
+    ]
     return judgement(
-        above(found, 0.5),
-        "share of approaches that meet an infeasible program or never end, to be above half",
-        found,
+        together(above(most, 0.5), above(apart)),
+        "share of approaches that meet an infeasible program or never end, to be above half at the "
+        "shortest sample time and larger than at the others",
+        [*most, *apart],
     )
 
 
+@over_ensemble
 def approach_delta_v_drops_with_horizon(grounds: Grounds) -> Judgement:
-    """Section 4.3: delta-v from the first to the second horizon falls by a quarter or more."""
+    """Section 4.3: delta-v over all sample times falls by a quarter or more, from N2 5 to 15."""
     sweep = Sweep(grounds, "approach")
     first, second = _tested(sweep.horizons, 2)[:2]
-    times = sweep.sample_times[1:]
-    found = [sweep.change(DELTA_V, (first, t), (second, t), len(times)) for t in times]
+    cases = [(n, t) for n in (first, second) for t in sweep.sample_times[1:]]
+    values = np.array(sweep.values(DELTA_V, *cases))
+    short, long = (part.sum(axis=0) for part in np.split(values, 2))
+    name = f"delta-v over the sample times, N {first} to {second}"
+    found = [sweep.effect(name, median(long / short - 1.0), len(short))]
     return judgement(
         above(negative(found), DRAMATIC), "median change, to be a drop by a quarter or more", found
     )
 
 
+@over_ensemble
 def longest_approach_horizon_is_similar(grounds: Grounds) -> Judgement:
     """Section 4.3: delta-v and time from the second to the third horizon stay similar."""
     return _third_horizon_is_similar(grounds, "approach")
@@ -348,6 +400,7 @@ def longest_approach_horizon_is_similar(grounds: Grounds) -> Judgement:
 # Section 4.4: the docking phase.
 
 
+@over_ensemble
 def fastest_docking_doubles_actuations(grounds: Grounds) -> Judgement:
     """Section 4.4: actuations of the other sample times less half of those of the fastest one."""
     sweep = Sweep(grounds, "docking")
@@ -362,11 +415,13 @@ def fastest_docking_doubles_actuations(grounds: Grounds) -> Judgement:
     return judgement(above(found, 2.0), "median ratio of actuations, to be above two", found)
 
 
+@over_ensemble
 def longer_sampling_docks_later(grounds: Grounds) -> Judgement:
     """Section 4.4: time to dock from the shortest to the longest sample time."""
     return _rises(_across(grounds, "docking", TIME), "median change")
 
 
+@over_ensemble
 def longer_sampling_lowers_docking_extremes(grounds: Grounds) -> Judgement:
     """Section 4.4: smallest and largest delta-v from the shortest to the longest sample time."""
     sweep = Sweep(grounds, "docking")
@@ -379,6 +434,7 @@ def longer_sampling_lowers_docking_extremes(grounds: Grounds) -> Judgement:
     return _falls(found, "relative change")
 
 
+@over_ensemble
 def docking_difference_is_tiny(grounds: Grounds) -> Judgement:
     """Section 4.4: that change against the range of delta-v of the two phases before."""
     sweep = Sweep(grounds, "docking")
@@ -394,6 +450,7 @@ def docking_difference_is_tiny(grounds: Grounds) -> Judgement:
     return judgement(within(found, TINY), reading, found)
 
 
+@over_ensemble
 def docking_time_hardly_depends_on_horizon(grounds: Grounds) -> Judgement:
     """Section 4.4: time to dock from the first horizon to the others, each sample time."""
     sweep = Sweep(grounds, "docking")
@@ -405,6 +462,7 @@ def docking_time_hardly_depends_on_horizon(grounds: Grounds) -> Judgement:
     return judgement(within(found, NOT_MUCH), "median change, to be within 10 %", found)
 
 
+@over_ensemble
 def short_horizon_docks_faster(grounds: Grounds) -> Judgement:
     """Section 4.4: time to dock from the first to the second horizon, each sample time."""
     sweep = Sweep(grounds, "docking")
@@ -412,6 +470,7 @@ def short_horizon_docks_faster(grounds: Grounds) -> Judgement:
     return _rises(_horizons(sweep, first, second, TIME), "median change")
 
 
+@over_ensemble
 def recommended_docking_sampling_saves(grounds: Grounds) -> Judgement:
     """Section 4.4: delta-v from the recommended sample times to the next one on either side."""
     sweep = Sweep(grounds, "docking")

@@ -71,6 +71,14 @@ class Sweep:
         name = _change_name(quantity, first, second)
         return self.effect(name, median(b / a - 1.0), len(a), count)
 
+    def mean_change(self, quantity: str, first: Case, second: Case, count: int) -> Effect:
+        """Relative change of the mean from one case to another."""
+
+        def average(values: np.ndarray) -> np.ndarray:
+            return values.mean(axis=1)
+
+        return self._relative("mean", average, quantity, first, second, count)
+
     def widening(self, quantity: str, first: Case, second: Case, count: int) -> Effect:
         """Relative change of the spread, from the 5 % to the 95 % quantile."""
         return self._relative("spread", _spread, quantity, first, second, count)

@@ -3,11 +3,10 @@
 import numpy as np
 import pandas as pd
 from matplotlib.pyplot import subplots
-from matplotlib.ticker import NullFormatter
 
 from smallsat.drawing.figure import Drawing
 from smallsat.studies.rendezvous.configuration import Cases
-from smallsat.studies.rendezvous.inference.search import FITTED
+from smallsat.studies.rendezvous.inference.parameter_set import FITTED, KINDS
 
 TITLES = {
     "keep_out_m": "$r_1$ [m]",
@@ -19,26 +18,27 @@ TITLES = {
     "end_distance_m": "$r_3$ [m]",
     "speed_bound_m_s": "$v_{max}$ [m/s]",
     "mean_motion_rad_s": "$n$ [rad/s]",
-    "plane_rate": "plane rate / $n$",
     "rotation_rate_rad_s": r"$\omega_z$ [rad/s]",
 }
 
 
 def residuals(table: pd.DataFrame) -> Drawing:
-    """Every cell's residual with the configured set, in assumed errors."""
-    figure, axes = subplots(figsize=(6.3, 4.4))
+    """What the configured set misses of everything that the document prints, in assumed errors."""
+    figure, axes = subplots(figsize=(6.3, 7.2))
     lines = np.arange(len(table))[::-1]
-    colours = [
-        "C0" if cell.endswith("steps") or cell.endswith("time") else "C1" for cell in table["cell"]
-    ]
+    colours = [f"C{KINDS.index(kind)}" for kind in table["kind"]]
     axes.barh(lines, table["residual"], color=colours, height=0.65)
-    axes.set_yticks(lines, table["cell"], fontsize=7)
+    axes.set_yticks(lines, table["cell"], fontsize=6)
     for at, row in zip(lines, table.to_dict("records"), strict=True):
         text = f"{row['printed']:g} / {row['computed']:.4g}"
-        axes.text(1.01, at, text, transform=axes.get_yaxis_transform(), fontsize=7, va="center")
+        axes.text(1.01, at, text, transform=axes.get_yaxis_transform(), fontsize=6, va="center")
     axes.axvline(0.0, color="black", lw=0.8)
     for edge in (-1.0, 1.0):
         axes.axvline(edge, color="0.5", lw=0.7, ls=":")
+    for kind in KINDS:
+        axes.barh([], [], color=f"C{KINDS.index(kind)}", label=kind)
+    axes.legend(fontsize=6)
+    axes.set_ylim(-1, len(table))
     axes.set_xlabel("(computed - printed) / assumed error; to the right: printed / computed")
     axes.grid(visible=False, axis="y")
     return figure, table
@@ -72,19 +72,18 @@ def profiles(section: Cases, evaluated: pd.DataFrame, table: pd.DataFrame) -> Dr
 
 
 def readings(table: pd.DataFrame) -> Drawing:
-    """Least misfit that each structural reading allows."""
-    figure, axes = subplots(figsize=(5.6, 3.6))
+    """Least misfit that each option of each reading allows, and what is missed in it."""
+    figure, axes = subplots(figsize=(6.0, 4.4))
     lines = np.arange(len(table))[::-1]
     questions = list(dict.fromkeys(table["question"]))
-    colours = [f"C{questions.index(question) % 2}" for question in table["question"]]
-    axes.barh(lines, table["misfit"], color=colours, height=0.65)
+    for at, row in zip(lines, table.to_dict("records"), strict=True):
+        axes.plot(row["misfit"], at, "o", color=f"C{questions.index(row['question']) % 2}", ms=4)
+        parts = ", ".join(f"{kind} {row[kind]:.0f}" for kind in KINDS)
+        axes.text(1.01, at, parts, transform=axes.get_yaxis_transform(), fontsize=6, va="center")
     labels = [
         f"{row['question'].replace('_', ' ')}: {row['reading']}" for row in table.to_dict("records")
     ]
     axes.set_yticks(lines, labels, fontsize=7)
-    axes.set_xscale("log")
-    axes.set_xticks([30, 100, 300, 1000], ["30", "100", "300", "1000"])
-    axes.xaxis.set_minor_formatter(NullFormatter())
-    axes.set_xlabel("least misfit found, whatever the other readings are")
-    axes.grid(visible=False, axis="y")
+    axes.set_xlim(0.0, None)
+    axes.set_xlabel("least misfit found, whatever the other readings are; to the right: its parts")
     return figure, table

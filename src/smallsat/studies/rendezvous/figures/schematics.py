@@ -232,8 +232,8 @@ def rotating_planes(section: Flight, flights: pd.DataFrame) -> Drawing:
     stages = law.horizons[0]
     normals = np.empty((stages + 1, 3))
     keep_out_normals(
-        state[:3], state[3:], np.array(law.axis), stages,
-        law.plane_rate * law.mean_motion * law.sample_times[0], law.plane_rule, normals,
+        state[:3], np.array(law.axis), stages,
+        law.plane_rate * law.mean_motion * law.sample_times[0], law.plane_turn, normals,
     )  # fmt: skip
     states, _ = predicted(law, 0, state, time)
     figure, axes = subplots(figsize=(4.8, 4.4))

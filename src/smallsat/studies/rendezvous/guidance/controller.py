@@ -19,7 +19,7 @@ from smallsat.optimal_control.riccati_interior_point import (
     solve,
     workspace,
 )
-from smallsat.studies.rendezvous.guidance.law import CONE_ONLY, DISTANCE, DOCKING, RENDEZVOUS
+from smallsat.studies.rendezvous.guidance.law import DISTANCE, DOCKING, RENDEZVOUS
 from smallsat.studies.rendezvous.guidance.phase_programs import (
     BOUNDS,
     PLANES,
@@ -151,8 +151,6 @@ def phase_ended(law, phase, state, time):
     along, distance = _offset(law, phase, state, time, axis)
     if phase == RENDEZVOUS and not in_cone(state, axis, law.tangents[phase]):
         return False
-    if law.switches[phase] == CONE_ONLY:
-        return True
     if law.switches[phase] == DISTANCE:
         return distance <= law.switch_distances[phase]
     return along <= law.switch_distances[phase]

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
-from smallsat.studies.rendezvous.model.geometry import NATURAL, rotated
+from smallsat.studies.rendezvous.model.geometry import GREAT_CIRCLE, rotated
 from smallsat.studies.rendezvous.model.prediction import terminal_weight, transition
 
 PHASES = ("far", "mid", "final")
@@ -16,7 +16,7 @@ RENDEZVOUS, APPROACH, DOCKING = 0, 1, 2
 HARD_WEIGHT = 100.0
 
 # Readings of what the document leaves open.
-CONE_ONLY, DISTANCE, ALONG_AXIS = 0, 1, 2  # what the end of a phase asks for
+DISTANCE, ALONG_AXIS = 0, 1  # how the end of a phase measures how far the chaser is
 AT_START, AT_HORIZON, AT_STAGE = 0, 1, 2  # when a rotating reference or cone is taken
 
 SETTINGS = np.dtype(
@@ -43,13 +43,15 @@ SETTINGS = np.dtype(
         ("keep_out", float),
         ("overshoot", float),
         ("plane_rate", float),
-        ("plane_rule", np.int64),
+        ("plane_turn", np.int64),
         ("switches", np.int64, (3,)),
         ("switch_distances", float, (3,)),
         ("set_point_time", np.int64),
         ("terminal_cone_time", np.int64),
         ("reference_moves", np.int64),
         ("time_limit", float),
+        ("burn_time", float),  # truth, as the drifts
+        ("mean_motion", float),
         ("drifts_before", float, (3, 6, 6)),  # truth in metres: until a delayed control acts
         ("drifts_after", float, (3, 6, 6)),
         ("predictions_before", float, (3, 6, 6)),  # the law's own, to make up for the delay
@@ -60,8 +62,9 @@ SETTINGS = np.dtype(
 # Fields of a record that are those of the law.
 AS_THEY_ARE = (
     "horizons", "sample_times", "control_bounds", "speed_bound", "axis", "rotation_rate", "port",
-    "set_points", "keep_out", "overshoot", "plane_rule", "switches", "switch_distances",
+    "set_points", "keep_out", "overshoot", "plane_turn", "switches", "switch_distances",
     "set_point_time", "terminal_cone_time", "reference_moves", "time_limit",
+    "burn_time", "mean_motion",
 )  # fmt: skip
 
 
@@ -90,8 +93,8 @@ class Law:
     set_points
         On the axis, m from the target; zero: the target itself.
     switches
-        What ends each phase: ``CONE_ONLY``, or inside the cone and at most so far from the target
-        (``DISTANCE``) or along the axis (``ALONG_AXIS``); the last phase ends that near the port.
+        How each phase's end is measured: ``DISTANCE`` from the target (in the last phase the port)
+        or ``ALONG_AXIS``. The far range asks for the cone too.
     switch_distances
         m.
     speed_bound
@@ -104,8 +107,8 @@ class Law:
         Distance of the docking port from the target on the axis, m.
     plane_rate
         Largest rotation rate of the keep-out plane in mean motions.
-    plane_rule
-        `geometry.SHORTEST`, `NATURAL` or `CURRENT`.
+    plane_turn
+        `geometry.GREAT_CIRCLE` or `UPRIGHT`.
     norm_weights, norm_terminal_weights, norm_control_weights
         Diagonals of the far range's 1-norm cost (2.10), (6,), (6,), (3,); ``None``: quadratic.
     set_point_time, terminal_cone_time
@@ -120,6 +123,9 @@ class Law:
         Whether the law predicts its state over the delay.
     time_limit
         s.
+    burn_time
+        In linear motion, how long a thruster burns for a change of velocity, s per m/s; zero: no
+        time, by impulses. The law itself always plans impulses.
     """
 
     mean_motion: float
@@ -139,7 +145,7 @@ class Law:
     rotation_rate: float = 0.0
     port: float = 0.5
     plane_rate: float = 1.0
-    plane_rule: int = NATURAL
+    plane_turn: int = GREAT_CIRCLE
     switches: tuple[int, int, int] = (ALONG_AXIS, DISTANCE, DISTANCE)
     terminal_weights: tuple[float, float, float] = (0.0, 0.0, 0.0)
     norm_weights: np.ndarray | None = None
@@ -152,6 +158,7 @@ class Law:
     delay: float = 0.0
     delay_known: bool = False
     time_limit: float = 12000.0
+    burn_time: float = 0.0
 
     def with_(self, **changes: Any) -> "Law":
         """The same law with some attributes changed."""
@@ -162,6 +169,11 @@ class Law:
         axis = np.empty(3)
         rotated(np.array(self.axis), self.rotation_rate * time, axis)
         return axis
+
+
+def in_phase(values: tuple[Any, ...], phase: int, value: Any) -> tuple[Any, ...]:
+    """A triple of a law with one phase's entry replaced."""
+    return (*values[:phase], value, *values[phase + 1 :])
 
 
 def settings(laws: Sequence[Law]) -> np.ndarray:

@@ -182,9 +182,7 @@ def _write_keep_out(law, state, time, program):
     axis, faces, normals = np.empty(3), np.empty((4, 3)), np.empty((stages + 1, 3))
     at = _time_of(law.terminal_cone_time, time, stages, stages, ts)
     rotated(law.axis, law.rotation_rate * at, axis)
-    keep_out_normals(
-        state[:3], state[3:], axis, stages, law.plane_rate * ts, law.plane_rule, normals
-    )
+    keep_out_normals(state[:3], axis, stages, law.plane_rate * ts, law.plane_turn, normals)
     for i in range(1, stages + 1):
         program.plane_count[i] = 1
         _set_plane(program, i, 0, -1.0, normals[i], -law.keep_out / length, law.hard_weights[0])
@@ -193,7 +191,7 @@ def _write_keep_out(law, state, time, program):
         cone_faces(axis, law.tangents[0], faces)
         for face in range(4):
             _set_plane(program, stages, 1 + face, 1.0, faces[face], 0.0, law.penalties[0])
-    gap = np.sqrt(state[0] ** 2 + state[1] ** 2 + state[2] ** 2) - law.keep_out
+    gap = normals[0] @ state[:3] - law.keep_out
     return gap < -START_TOLERANCE * length
 
 

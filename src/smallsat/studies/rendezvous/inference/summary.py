@@ -1,4 +1,4 @@
-"""What the searches found, put together: residuals, profiles, readings, acceptable sets."""
+"""What the searches found, put together: misses, profiles, readings, sets worth keeping."""
 
 from itertools import product
 from typing import Any
@@ -6,39 +6,39 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from smallsat.config import lookup
 from smallsat.dynamics.units import MINUTE
 from smallsat.evidence.ledger import Ledger
 from smallsat.studies.rendezvous.configuration import Cases, LinearProgram
 from smallsat.studies.rendezvous.evidence.case_tables import total_cells
-from smallsat.studies.rendezvous.inference.search import (
-    CHOICES,
-    FITTED,
-    SIDES,
-    residuals,
-    simulate_sets,
-    with_values,
-)
-from smallsat.studies.rendezvous.parameters import CASES
+from smallsat.studies.rendezvous.inference.axes import axes
+from smallsat.studies.rendezvous.inference.misfit import residuals, simulate_sets
+from smallsat.studies.rendezvous.inference.parameter_set import FITTED, KINDS, OPTIONS
 from smallsat.studies.rendezvous.simulation.delta_v import READINGS
 
 # Bins over a parameter's bounds, of the lower envelope of the misfit.
 BINS = 12
-# Readings as the tables call them: the searches' choices, the side, and the sum of delta-v.
-STRUCTURES = ("side", "delta_v", *CHOICES)
 # Shares of its bounds that an identified parameter's acceptable values fill at most.
 IDENTIFIED, LOOSE = 0.25, 0.6
 COUPLED = 0.7
-LP_SET_POINTS = (0.0, 0.5, 1.0)
+LP_SET_POINTS = ("none", "as the quadratic program's")
 LP_CONTROL = (1e2, 1e3, 1e4)
 LP_TERMINAL = (1.0, 1e2, 1e4, 1e5)
 
 
-def configured_residuals(section: Cases, ledger: Ledger) -> pd.DataFrame:
-    """Residuals of every fitted cell with the configured set, one row a cell."""
+def configured_residuals(section: Cases, starts: np.ndarray, ledger: Ledger) -> pd.DataFrame:
+    """What the configured set misses: a row a printed cell, phase, preference and axis."""
     reading = section.inferred.readings.delta_v
-    table = residuals(section, simulate_sets([section]), ledger)
+    table = pd.concat(
+        [
+            residuals([section], simulate_sets([section]), ledger),
+            axes(section, starts, ledger),
+        ],
+        ignore_index=True,
+    )
     return pd.DataFrame(
         {
+            "kind": table["kind"],
             "cell": table["cell"],
             "printed": table["printed"],
             "computed": table[f"computed {reading}"],
@@ -47,10 +47,27 @@ def configured_residuals(section: Cases, ledger: Ledger) -> pd.DataFrame:
     )
 
 
+def constraints(section: Cases, entries: list[dict[str, str]]) -> pd.DataFrame:
+    """What the document says of what it does not print, with our value: a row an entry.
+
+    ``entries`` are those of ``constraints.yaml``.
+    """
+    return pd.DataFrame(
+        {
+            "locator": entry["locator"],
+            "says": entry["says"],
+            "narrows": entry["narrows"],
+            "strength": entry["strength"],
+            "ours": str(lookup(section, entry["key"])) if "key" in entry else "",
+        }
+        for entry in entries
+    )
+
+
 def acceptable(section: Cases, evaluated: pd.DataFrame) -> pd.DataFrame:
     """Evaluated sets whose misfit is within the configured factor of the best one, best first."""
     limit = section.inference.acceptable * evaluated["misfit"].min()
-    chosen = evaluated[evaluated["misfit"] <= limit].drop_duplicates()
+    chosen = evaluated[evaluated["misfit"] <= limit].drop_duplicates([*FITTED, *OPTIONS])
     return chosen.sort_values("misfit", kind="stable", ignore_index=True)
 
 
@@ -117,61 +134,73 @@ def profiles(section: Cases, evaluated: pd.DataFrame) -> pd.DataFrame:
 
 
 def readings(evaluated: pd.DataFrame) -> pd.DataFrame:
-    """Least misfit with each structural reading, whatever the others are."""
+    """Least misfit with each option of each reading, whatever the others are, and its parts."""
     rows: list[dict[str, Any]] = []
-    for reading in READINGS:
+
+    def add(question: str, option: str, own: pd.DataFrame, misfit: pd.Series) -> None:
+        best: Any = own.to_dict("records")[int(misfit.to_numpy().argmin())]
         rows.append(
             {
-                "question": "delta_v",
-                "reading": reading,
-                "misfit": evaluated[f"misfit {reading}"].min(),
-                "sets": len(evaluated),
+                "question": question,
+                "reading": option,
+                "misfit": float(misfit.min()),
+                **{kind: best[kind] for kind in KINDS},
+                "sets": len(own),
             }
         )
-    for question, options in {"side": SIDES, **CHOICES}.items():
+
+    for reading in READINGS:
+        add("delta_v", reading, evaluated, evaluated[f"misfit {reading}"] + evaluated["axes"])
+    for question, options in OPTIONS.items():
         for option in options:
-            own = evaluated[evaluated[question] == option]
-            rows.append(
-                {
-                    "question": question,
-                    "reading": str(option),
-                    "misfit": own["misfit"].min(),
-                    "sets": len(own),
-                }
-            )
+            own = evaluated[evaluated[question] == str(option)]
+            add(question, str(option), own, own["misfit"])
     return pd.DataFrame(rows)
 
 
-def ensemble(section: Cases, evaluated: pd.DataFrame) -> pd.DataFrame:
-    """All five cases with acceptable sets spread over their misfits; a row a set, case, phase.
+def kept(section: Cases, evaluated: pd.DataFrame) -> pd.DataFrame:
+    """Sets worth keeping: the ensemble first, then the best set of each option.
 
-    Delta-v is summed by each set's own best reading, in column ``delta_v_m_s``.
+    The ensemble spans the readings: the best set, then in turn the best acceptable set of each
+    option that is not in it yet, then acceptable sets spread over their misfits, up to the
+    configured number. ``acceptable`` says which sets are.
     """
     good = acceptable(section, evaluated)
-    count = min(section.inference.flown, len(good))
-    chosen = good.iloc[np.unique(np.linspace(0, len(good) - 1, count).astype(int))]
-    sections = []
-    for row in chosen.to_dict("records"):
-        structure = {"r_bar": row["side"], **{key: row[key] for key in CHOICES}}
-        sections.append(with_values(section, {name: row[name] for name in FITTED}, structure))
-    flown = simulate_sets(sections, CASES)
-    best = chosen["delta_v"].to_list()
-    flown["delta_v_m_s"] = [row[best[row["set"]]] for row in flown.to_dict("records")]
-    flown["misfit"] = flown["set"].map(dict(enumerate(chosen["misfit"])))
-    return flown[["set", "misfit", "case", "phase", "ended", "steps", "time_s", "delta_v_m_s"]]
+    chosen = [0]
+    for question, options in OPTIONS.items():
+        for option in options:
+            own = good.index[good[question] == str(option)]
+            if len(own) and not set(own) & set(chosen):
+                chosen.append(int(own[0]))
+    spread = np.unique(np.linspace(0, len(good) - 1, section.inference.ensemble.sets).astype(int))
+    chosen += [int(place) for place in spread if place not in chosen]
+    ensemble = good.loc[chosen[: section.inference.ensemble.sets]]
+    best = [
+        evaluated[evaluated[question] == str(option)].nsmallest(1, "misfit")
+        for question, options in OPTIONS.items()
+        for option in options
+    ]
+    table = pd.concat([ensemble, *best]).drop_duplicates([*FITTED, *OPTIONS])
+    limit = section.inference.acceptable * evaluated["misfit"].min()
+    table["acceptable"] = table["misfit"] <= limit
+    columns = [*FITTED, *OPTIONS, "delta_v", "misfit", *KINDS, "acceptable"]
+    return table[columns].reset_index(drop=True)
 
 
 def linear_programs(section: Cases, ledger: Ledger) -> pd.DataFrame:
-    """The LP case with many weights, with and without set point: one row a variant."""
+    """The LP case with many weights, with the set point and without: one row a variant."""
     sections: list[Cases] = []
     rows: list[dict[str, Any]] = []
     for point, control, terminal in product(LP_SET_POINTS, LP_CONTROL, LP_TERMINAL):
         lp = LinearProgram(
-            set_point=point, state_weight=1.0, control_weight=control, terminal_weight=terminal
+            set_point=point == LP_SET_POINTS[1],
+            state_weight=1.0,
+            control_weight=control,
+            terminal_weight=terminal,
         )
         sections.append(section.with_(inferred=section.inferred.with_(lp=lp)))
         rows.append({"set_point": point, "control_weight": control, "terminal_weight": terminal})
-    flown = simulate_sets(sections, ("lp",))
+    flown = simulate_sets(sections, ("lp",), patient=True)
     reading = section.inferred.readings.delta_v
     printed: Any = total_cells(ledger).set_index("case").loc["lp"]
     groups: Any = flown.groupby("set")

@@ -91,7 +91,7 @@ def follow(law: Law, start: np.ndarray, motion: NonlinearMotion | None = None) -
         note(phase, "start")
         while time + duration <= law.time_limit:
             next_control(record, phase, relative(motion, pair), time, memory, command)
-            push(motion, pair, command, 0.0, duration, burn, on_times, applied)
+            push(record, motion, pair, command, 0.0, duration, burn, on_times, applied)
             for number in range(1, pieces + 1):
                 coast(motion, pair, matrix, time, piece, burn, on_times)
                 on_times = np.maximum(on_times - piece, 0.0)

@@ -7,9 +7,9 @@ import numpy as np
 
 from smallsat.dynamics.compiled import compiled
 
-# Which way the keep-out planes turn where the approach axis is out of their reach: the short way,
-# that of the natural relative motion (clockwise as seen from the orbit's normal), or the chaser's.
-SHORTEST, NATURAL, CURRENT = 0, 1, 2
+# How the keep-out planes turn: from the chaser to the approach axis within the great circle through
+# both, or upright on the orbit's plane, about its normal.
+GREAT_CIRCLE, UPRIGHT = 0, 1
 DEGENERATE = 1e-9  # sine of the angle between chaser and axis, below which they are one line
 
 
@@ -56,15 +56,23 @@ def in_cone(position, axis, tangent):
 
 
 @compiled
-def keep_out_normals(position, velocity, axis, steps, largest_angle, rule, out):
+def keep_out_normals(position, axis, steps, largest_angle, turn_rule, out):
     """Fill the outward normals of the rotating keep-out plane, (steps + 1, 3) (3.5, 3.6).
 
-    The first normal points at the chaser. The last lies on the axis if equal turns of at most
+    The first normal points at the chaser, the last one along the axis if equal turns of at most
     `largest_angle`, rad, reach it; then the planes turn the short way. Otherwise they turn by the
-    largest angle, in the direction of the rule: `SHORTEST`, `NATURAL` or `CURRENT`.
+    largest angle the way of the natural relative motion, clockwise as seen from the orbit's normal
+    (section 3.1.3). By the rule they turn within the great circle from chaser to axis
+    (`GREAT_CIRCLE`), or about the orbit's normal and stand upright on its plane (`UPRIGHT`).
     """
-    radius = np.sqrt(position[0] ** 2 + position[1] ** 2 + position[2] ** 2)
-    first = position / radius
+    first = position.copy()
+    if turn_rule == UPRIGHT:
+        first[2] = 0.0
+    radius = np.sqrt(first[0] ** 2 + first[1] ** 2 + first[2] ** 2)
+    if radius > DEGENERATE * abs(position[2]):
+        first /= radius
+    else:
+        first[:] = axis
     cosine = first[0] * axis[0] + first[1] * axis[1] + first[2] * axis[2]
     tangent = axis - cosine * first
     sine = np.sqrt(tangent[0] ** 2 + tangent[1] ** 2 + tangent[2] ** 2)
@@ -75,12 +83,7 @@ def keep_out_normals(position, velocity, axis, steps, largest_angle, rule, out):
     turn = np.arctan2(sine, cosine) / steps
     if turn > largest_angle:
         turn = largest_angle
-        along = 0.0
-        if rule == NATURAL:
-            along = tangent[0] * first[1] - tangent[1] * first[0]
-        elif rule == CURRENT:
-            along = tangent[0] * velocity[0] + tangent[1] * velocity[1] + tangent[2] * velocity[2]
-        if along < 0.0:
+        if tangent[0] * first[1] < tangent[1] * first[0]:
             turn = -turn
     for i in range(steps + 1):
         c, s = np.cos(i * turn), np.sin(i * turn)

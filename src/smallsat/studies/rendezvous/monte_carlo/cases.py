@@ -6,13 +6,12 @@ that does not begin with the first phase begins where the baseline ended the pha
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from smallsat.dynamics.units import MINUTE
 from smallsat.studies.rendezvous.configuration import MonteCarlo
-from smallsat.studies.rendezvous.guidance.law import Law
+from smallsat.studies.rendezvous.guidance.law import Law, in_phase
 from smallsat.studies.rendezvous.model.environment import orbit_radius
 from smallsat.studies.rendezvous.model.prediction_j2 import schweighart_sedwick
 from smallsat.studies.rendezvous.parameters import STUDY_PHASES as PHASES
@@ -80,11 +79,6 @@ def base(section: MonteCarlo, case: str = "v-bar") -> Law:
     """The law of a case of chapter 3 with the time limit of the studies."""
     limit = MINUTE * section.studies.time_limit_min
     return law(section, case).with_(time_limit=limit)
-
-
-def in_phase(values: tuple[Any, ...], phase: int, value: Any) -> tuple[Any, ...]:
-    """A triple of a law with one phase's entry replaced."""
-    return (*values[:phase], value, *values[phase + 1 :])
 
 
 def _sampled(law: Law, phase: int, sample_time: float) -> Law:

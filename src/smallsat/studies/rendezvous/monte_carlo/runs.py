@@ -20,9 +20,7 @@ from smallsat.studies.rendezvous.monte_carlo.tables import (
     end_columns,
 )
 from smallsat.studies.rendezvous.simulation.closed_loop import (
-    AXES,
-    NORM,
-    PLANES,
+    SUMS,
     Manoeuvres,
     simulate,
 )
@@ -31,13 +29,6 @@ from smallsat.studies.rendezvous.simulation.closed_loop import (
 CHUNK = 50
 # More runs than any state has, so that each run has a stream of its own, whatever their number.
 RUNS = 1_000_000
-# How delta-v is added up, by the names that the configuration has for it: for `Passages`, and the
-# field of `Manoeuvres`.
-READINGS = {
-    "2-norm": (NORM, "delta_v"),
-    "1-norm": (AXES, "delta_v_axes"),
-    "plane and normal": (PLANES, "delta_v_planes"),
-}
 
 
 def simulate_cases(
@@ -73,7 +64,7 @@ def simulate_cases(
             rows["case"][:] = case.name
             rows["sample"][:] = chunk["sample"]
             rows["run"][:] = chunk["run"]
-            fill(rows, found, READINGS[section.inferred.readings.delta_v][1])
+            fill(rows, found, SUMS[section.inferred.readings.delta_v][1])
             parts.append(pd.DataFrame(rows)[SCHEMA.names])
     return pd.concat(parts, ignore_index=True).astype(parts[0].dtypes)
 
@@ -92,7 +83,7 @@ def simulate_passages(section: MonteCarlo, case: Case, starts: pd.DataFrame) -> 
             generators(section, chunk),
             distances=distances,
             limits=[MINUTE * limit for limit in limits],
-            reading=READINGS[section.inferred.readings.delta_v][0],
+            reading=SUMS[section.inferred.readings.delta_v][0],
         ).passages
         rows = []
         for m in range(len(chunk)):

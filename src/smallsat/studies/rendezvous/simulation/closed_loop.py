@@ -34,8 +34,15 @@ from smallsat.studies.rendezvous.simulation.motion import (
     relative,
 )
 
-# How the velocity changes of a manoeuvre are added up, see `Manoeuvres`.
-NORM, AXES, PLANES = 0, 1, 2
+# How the velocity changes of a manoeuvre are added up, by the names of `delta_v.READINGS`: for
+# `Passages`, and the field of `Manoeuvres`.
+NORM, AXES, RESULTANT, PLANES = 0, 1, 2, 3
+SUMS = {
+    "2-norm": (NORM, "delta_v"),
+    "1-norm": (AXES, "delta_v_axes"),
+    "resultant": (RESULTANT, "delta_v_resultant"),
+    "plane and normal": (PLANES, "delta_v_planes"),
+}
 
 
 class Steps(NamedTuple):
@@ -75,7 +82,7 @@ class Passages(NamedTuple):
     Attributes
     ----------
     reading
-        How delta-v is added up here: `NORM`, `AXES` or `PLANES`.
+        How delta-v is added up here: the number that `SUMS` have.
     distances, limits
         Docking distances, m, (D,), and time limits, s, (L,).
     times, delta_v
@@ -103,9 +110,10 @@ class Manoeuvres(NamedTuple):
         Whether the last phase asked for ended within the time limit, (M,).
     steps
         Number of steps, (M, 3).
-    delta_v, delta_v_axes, delta_v_planes
-        Sums of the velocity changes' 2-norms, of their 1-norms, and of their 2-norm in the orbit's
-        plane plus what is normal to it, (M, 3), m/s.
+    delta_v, delta_v_axes, delta_v_resultant, delta_v_planes
+        Sums of the velocity changes, (M, 3), m/s, see `delta_v.summed`: of their 2-norms, their
+        1-norms, the resultant of equal thrusters, and their 2-norm in the orbit's plane plus what
+        is normal to it.
     ends
         True relative state at the end of each phase, (M, 3, 6), m and m/s.
     end_times
@@ -123,6 +131,7 @@ class Manoeuvres(NamedTuple):
     steps: np.ndarray
     delta_v: np.ndarray
     delta_v_axes: np.ndarray
+    delta_v_resultant: np.ndarray
     delta_v_planes: np.ndarray
     ends: np.ndarray
     end_times: np.ndarray
@@ -203,6 +212,7 @@ def _nothing_yet(
         steps=number(3),
         delta_v=value(3),
         delta_v_axes=value(3),
+        delta_v_resultant=value(3),
         delta_v_planes=value(3),
         ends=unknown(3, 6),
         end_times=value(3),
@@ -259,7 +269,7 @@ def _simulate(law, start, phases, motion, generator, memory, m, found):
             if found.records.time.shape[1] > 0:
                 _record(found.records, m, step, time, phase, state, command, control)
             coast(motion, pair, law.drifts_before[phase], time, delay, burn, idle)
-            push(motion, pair, command, w, duration - delay, burn, on_times, applied)
+            push(law, motion, pair, command, w, duration - delay, burn, on_times, applied)
             coast(
                 motion, pair, law.drifts_after[phase], time + delay, duration - delay, burn,
                 on_times,
@@ -304,7 +314,14 @@ def _add_up(found, m, phase, impulse, control):
     found.iterations[m, phase] += control.iterations
     level = np.sqrt(impulse[0] ** 2 + impulse[1] ** 2)
     found.delta_v[m, phase] += np.sqrt(level**2 + impulse[2] ** 2)
-    found.delta_v_axes[m, phase] += abs(impulse[0]) + abs(impulse[1]) + abs(impulse[2])
+    total = abs(impulse[0]) + abs(impulse[1]) + abs(impulse[2])
+    most = max(abs(impulse[0]), abs(impulse[1]), abs(impulse[2]))
+    least = min(abs(impulse[0]), abs(impulse[1]), abs(impulse[2]))
+    middle = total - most - least
+    found.delta_v_axes[m, phase] += total
+    found.delta_v_resultant[m, phase] += (
+        np.sqrt(3.0) * least + np.sqrt(2.0) * (middle - least) + most - middle
+    )
     found.delta_v_planes[m, phase] += level + abs(impulse[2])
 
 
@@ -315,6 +332,8 @@ def _spent(found, m):
         return found.delta_v[m].sum()
     if found.passages.reading == AXES:
         return found.delta_v_axes[m].sum()
+    if found.passages.reading == RESULTANT:
+        return found.delta_v_resultant[m].sum()
     return found.delta_v_planes[m].sum()
 
 

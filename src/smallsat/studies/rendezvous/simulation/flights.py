@@ -11,6 +11,7 @@ from smallsat.studies.rendezvous.model.prediction import transition
 from smallsat.studies.rendezvous.parameters import CASES, law, start_state
 from smallsat.studies.rendezvous.simulation.closed_loop import Steps, simulate
 from smallsat.studies.rendezvous.simulation.delta_v import READINGS, summed
+from smallsat.studies.rendezvous.simulation.motion import add_burns
 
 # Pieces of a step in which the path between samples is looked at.
 PIECES = 10
@@ -82,8 +83,10 @@ def _path(case: str, steps: Steps, law: Law) -> pd.DataFrame:
         chosen = steps.phase == phase
         if not chosen.any():
             continue
+        # With burns the path is that after them; it begins where it would have come from.
         after = steps.state[chosen].copy()
-        after[:, 3:] += steps.impulse[chosen]
+        for state, change in zip(after, steps.impulse[chosen], strict=True):
+            add_burns(law.burn_time, law.mean_motion, change, state)
         for piece in range(PIECES + 1):
             duration = law.sample_times[phase] * piece / PIECES
             part = pd.DataFrame(after @ transition(matrix, duration).T, columns=STATE)

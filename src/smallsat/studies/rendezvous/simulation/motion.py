@@ -1,10 +1,10 @@
 """What the guidance moves and what it is told of it: the motion that a closed loop is run with.
 
 Linear motion, `None` in place of a `NonlinearMotion`, is that of Clohessy and Wiltshire's equations
-with impulses as commanded and a state that is known. Every function here takes either, and is
-compiled for each on its own. What moves is a pair of states (2, 6), of the target and the chaser:
-inertial ones, or for linear motion those in the target's Hill frame, in whose origin the target
-rests. Relative states are positions, m, and velocities, m/s, in that frame.
+with a state that is known and changes of velocity as commanded, at once or by burns. Every function
+here takes either, and is compiled for each on its own. What moves is a pair of states (2, 6), of
+the target and the chaser: inertial ones, or for linear motion those in the target's Hill frame, in
+whose origin the target rests. Relative states are positions, m, and velocities, m/s, in that frame.
 """
 
 from typing import NamedTuple
@@ -127,11 +127,13 @@ def coast(motion, pair, transition, time, duration, burn, on_times):
 
 
 @compiled
-def push(motion, pair, command, error, longest, burn, on_times, applied):
+def push(law, motion, pair, command, error, longest, burn, on_times, applied):
     """Turn a command into an impulse on the chaser, in place, or into burns that are to come.
 
     Parameters
     ----------
+    law
+        For linear motion, its record's ``burn_time`` and ``mean_motion``.
     command
         Velocity change (3,), m/s.
     error, longest
@@ -143,8 +145,7 @@ def push(motion, pair, command, error, longest, burn, on_times, applied):
     for k in range(3):
         on_times[k], applied[k] = 0.0, command[k]
     if motion is None:
-        for k in range(3):
-            pair[1, 3 + k] += applied[k]
+        add_burns(law.burn_time, law.mean_motion, applied, pair[1])
     else:
         if motion.actuation != COMMANDED:
             pulse_on_times(command, motion.mass, motion.force, motion.minimum_on_time, on_times)
@@ -161,6 +162,24 @@ def push(motion, pair, command, error, longest, burn, on_times, applied):
                 state[3 + k] += applied[k]
                 on_times[k] = 0.0
             copy(pair_from_relative(pair[0], state)[1], pair[1])
+
+
+@compiled
+def add_burns(burn_time, mean_motion, change, state):
+    """Add what burns of constant force that begin now come to, as if it had happened at once.
+
+    A burn of T s that changes the velocity by u leaves the chaser behind by u T/2, and turned by
+    Coriolis' acceleration meanwhile; terms of the square of mean motion and T are left out.
+    """
+    for k in range(3):
+        lag = 0.5 * burn_time * abs(change[k]) * change[k]
+        turned = 2.0 * mean_motion * lag
+        state[k] -= lag
+        state[3 + k] += change[k]
+        if k < 2:
+            sign = 1.0 - 2.0 * k
+            state[3 + 1 - k] += sign * turned
+            state[1 - k] -= sign * turned * burn_time * abs(change[k]) / 3.0
 
 
 @compiled

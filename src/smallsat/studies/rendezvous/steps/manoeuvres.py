@@ -1,6 +1,6 @@
 """Manoeuvres of chapters 4 and 5, from many initial states; the part is their group."""
 
-from pathlib import Path
+from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
@@ -17,8 +17,8 @@ from smallsat.studies.rendezvous.monte_carlo.tables import end_columns
 def run(step: Step[MonteCarlo]) -> Tables:
     """Simulate a shard of a group."""
     flown = cases(step.section, step.part)
-    starts = [_starts(case, step.results / "studies") for case in flown]
-    own = [table.iloc[step.shard.units(len(table))] for table in starts]
+    tables = [starts(case, lambda name: read_table(step.results / name)) for case in flown]
+    own = [table.iloc[step.shard.units(len(table))] for table in tables]
     if step.part == "passages":
         table = simulate_passages(step.section, flown[0], own[0])
     else:
@@ -26,13 +26,13 @@ def run(step: Step[MonteCarlo]) -> Tables:
     return {f"studies/shards/{step.part}-{step.shard}.parquet": table}
 
 
-def _starts(case: Case, folder: Path) -> pd.DataFrame:
+def starts(case: Case, table_of: Callable[[str], pd.DataFrame]) -> pd.DataFrame:
     """Where a case begins: an initial state, or where the baseline ended the phase before."""
     if case.phases[0] == 0:
         name = "initial-states" if case.motion is None else "disturbed-states"
-        table = read_table(folder / f"{name}.parquet")
+        table = table_of(f"studies/{name}.parquet")
     else:
-        flown = read_table(folder / "domain.parquet")
+        flown = table_of("studies/domain.parquet")
         before = end_columns(PHASES[case.phases[0] - 1])
         ended = (flown["case"] == BASELINE) & (flown["end_phase"] > case.phases[0])
         table = flown.loc[ended, ["sample", *before]]
