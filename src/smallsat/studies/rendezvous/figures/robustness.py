@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.pyplot import subplots
 
 from smallsat.drawing.figure import Drawing
@@ -16,6 +17,9 @@ from smallsat.dynamics.units import HOUR, MINUTE
 
 # The range "within 1 sigma" of Section 5.1, and the bounds that Figure 5.1 dots.
 STATED_PCT, SIGMAS = 7.0, 3.0
+
+# An axis ends at so many times the usual range of a variant.
+CUT = 4.0
 
 
 def thrust_errors(errors: pd.DataFrame) -> Drawing:
@@ -62,12 +66,17 @@ def averages(disturbed: pd.DataFrame, undisturbed: pd.DataFrame) -> Drawing:
         rows["delta_v_m_s"],
         xerr=rows["deviation_time_min"],
         yerr=rows["deviation_delta_v_m_s"],
-        fmt="o",
+        fmt="none",
+        ecolor=BLUE,
+        elinewidth=0.4,
+        alpha=0.3,
+    )
+    axes.plot(
+        rows["mean_time_min"],
+        rows["delta_v_m_s"],
+        "o",
         ms=3.2,
         color=BLUE,
-        ecolor=BLUE,
-        elinewidth=0.6,
-        alpha=0.5,
         label="runs from a state: mean, deviation",
     )
     calm = data[data["case"] == "undisturbed"]
@@ -136,8 +145,22 @@ def variants(table: pd.DataFrame) -> Drawing:
         panel.axvline(0.0, color=BLACK, lw=0.8)
         panel.hlines(lines, table[f"{name}_low_pct"], table[f"{name}_high_pct"], color=BLUE, lw=1.6)
         panel.plot(table[f"{name}_median_pct"], lines, "o", ms=4, color=BLUE)
+        _cut_outliers(panel, table, lines, name)
         panel.set_yticks(lines, table["variant"])
         panel.set_xlabel(f"change of {label} [%]")
         panel.set_ylim(-0.7, len(table) - 0.3)
         panel.grid(axis="y", visible=False)
     return figure, table
+
+
+def _cut_outliers(panel: Axes, table: pd.DataFrame, lines: np.ndarray, name: str) -> None:
+    """End the axis where one variant would squeeze all others, and say how far that one goes."""
+    low, high = table[f"{name}_low_pct"].to_numpy(), table[f"{name}_high_pct"].to_numpy()
+    usual = CUT * float(np.median(np.maximum(np.abs(low), np.abs(high))))
+    most = max(float(np.abs(low).max()), float(np.abs(high).max()))
+    if most <= usual or usual == 0.0:
+        return
+    panel.set_xlim(max(1.1 * low.min(), -usual), min(1.1 * high.max(), usual))
+    for line, end in zip(lines, high, strict=True):
+        if end > usual:
+            panel.text(0.99 * usual, line + 0.12, f"to {end:.0f}", fontsize=6, ha="right")

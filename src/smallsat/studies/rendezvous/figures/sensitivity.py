@@ -13,11 +13,13 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Rectangle
 from matplotlib.pyplot import subplots
 
 from smallsat.drawing.figure import Drawing
 from smallsat.drawing.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION
 from smallsat.dynamics.units import KM, MINUTE
+from smallsat.studies.rendezvous.inference.axes import PrintedAxes
 from smallsat.studies.rendezvous.monte_carlo.cases import PHASES, sweep_case
 from smallsat.studies.rendezvous.monte_carlo.tables import column, totals
 
@@ -74,12 +76,21 @@ def costs_beside_baseline(
     return figure, data
 
 
-def sweep(table: pd.DataFrame, phase: str, horizon: int, sample_times: Sequence[float]) -> Drawing:
+def sweep(
+    table: pd.DataFrame,
+    phase: str,
+    horizon: int,
+    sample_times: Sequence[float],
+    printed: PrintedAxes | None,
+) -> Drawing:
     """Delta-v of a phase against its time and its number of actuations, by sample time.
 
     Axes end before the few outermost manoeuvres where those would squeeze all others; how many lie
-    beyond is said.
+    beyond is said. Where the document's axes can be read they are a frame, and only the sample
+    times of its legend are drawn.
     """
+    if printed:
+        sample_times = [t for t in sample_times if t in printed.sample_times]
     quantities = ("time_s", "steps", "delta_v_m_s")
     done = table[table["completed"]]
     palette = shades(len(sample_times))
@@ -103,6 +114,24 @@ def sweep(table: pd.DataFrame, phase: str, horizon: int, sample_times: Sequence[
     axes[0].scatter(data["time_s"] / MINUTE, data["delta_v_m_s"], color=colours, **DOT)
     axes[1].scatter(data["steps"], data["delta_v_m_s"], color=colours, **DOT)
     ends = [_end(data["time_s"] / MINUTE), _end(data["steps"]), _end(data["delta_v_m_s"])]
+    if printed:
+        levels = (printed.time_min, printed.intervals, printed.delta_v_m_s)
+        ends = [max(end, 1.04 * level[1]) for end, level in zip(ends, levels, strict=True)]
+        for one, (left, right) in zip(axes, levels, strict=False):
+            low, high = printed.delta_v_m_s
+            one.add_patch(
+                Rectangle(
+                    (left, low), right - left, high - low, fill=False, color=GREY, lw=0.9, ls="--"
+                )
+            )
+        axes[0].text(
+            printed.time_min[0],
+            printed.delta_v_m_s[1],
+            "axes as printed",
+            fontsize=7,
+            color=GREY,
+            va="bottom",
+        )
     for one, end in zip(axes, ends, strict=False):
         one.set_xlim(0, end)
     axes[0].set_ylim(0, ends[2])

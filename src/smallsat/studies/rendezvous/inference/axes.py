@@ -6,6 +6,7 @@ left open, since a few starts find less than the document's 500.
 """
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -15,7 +16,7 @@ from smallsat.evidence.ledger import Ledger
 from smallsat.studies.rendezvous.configuration import Cases
 from smallsat.studies.rendezvous.guidance.law import APPROACH, DOCKING, Law, in_phase
 from smallsat.studies.rendezvous.inference.misfit import WORST_SHARE
-from smallsat.studies.rendezvous.parameters import law
+from smallsat.studies.rendezvous.parameters import STUDY_PHASES, law
 from smallsat.studies.rendezvous.simulation.closed_loop import SUMS, Manoeuvres, simulate
 from smallsat.studies.rendezvous.simulation.delta_v import READINGS
 
@@ -43,6 +44,32 @@ FIGURES = {
         },
     ),
 }
+
+
+class PrintedAxes(NamedTuple):
+    """A printed figure's sample times, s, and the ends of its axes, least and most."""
+
+    sample_times: tuple[float, ...]
+    time_min: tuple[float, float]
+    delta_v_m_s: tuple[float, float]
+    intervals: tuple[float, float]
+
+
+def printed_axes(phase: str, horizon: int, ledger: Ledger) -> PrintedAxes | None:
+    """The printed axes of a phase's sweep with a horizon, where they can be read."""
+    for place, own, sample_times, printed in FIGURES.values():
+        if (STUDY_PHASES[place], own) == (phase, horizon):
+            ends = {
+                quantity: (
+                    ledger.value(f"{name}/min").value,
+                    ledger.value(f"{name}/max").value,
+                )
+                for quantity, name in printed.items()
+            }
+            return PrintedAxes(sample_times, **ends)
+    return None
+
+
 # A phase is given up at so many times its axis; what is beyond is no better there.
 BEYOND = 3.0
 
