@@ -29,7 +29,9 @@ INFERRED = [
     "lp-variants.csv",
 ]
 
-ENSEMBLE = [f"{number:02d}" for number in range(1, CONFIG["rendezvous"].inference.ensemble.sets + 1)]
+ENSEMBLE = [
+    f"{number:02d}" for number in range(1, CONFIG["rendezvous"].inference.ensemble.sets + 1)
+]
 # What the claims read of each set of the ensemble.
 MEMBER_TABLES = [
     "set.csv",
