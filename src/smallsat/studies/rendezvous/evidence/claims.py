@@ -271,9 +271,9 @@ def _way_around(flights: pd.DataFrame, case: str) -> tuple[float, bool]:
 def lp_takes_another_way(grounds: Grounds) -> Judgement:
     """The far ranges of QP and LP must go about the target in opposite directions.
 
-    The weights of the LP are not printed, and ours are chosen for its time and delta-v: that it goes
-    another way with them shows that the sentence can be true, and that it does not shows nothing.
-    This is the reading since a first run, in which it did not.
+    The weights of the LP are not printed, and ours are chosen for its time and delta-v: that it
+    goes another way with them shows that the sentence can be true, and that it does not shows
+    nothing. This is the reading since a first run, in which it did not.
     """
     flights = grounds.table("flights.parquet")
     quadratic, _ = _way_around(flights, "v-bar")
