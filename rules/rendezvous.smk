@@ -149,13 +149,20 @@ JUDGED["rendezvous"] = [
     "observations.csv",
     "flights.parquet",
     "paths.parquet",
+    "phases.csv",
     "truth.csv",
-    "inference.parquet",
-    "residuals.csv",
     "readings.csv",
-    *[f"ensemble/{number}/{table}" for number in ENSEMBLE for table in MEMBER_TABLES],
-    "lp-variants.csv",
     "constraints.csv",
     "studies/initial-states.parquet",
-    *[f"studies/{group}.parquet" for group in GROUPS if group not in ("weights", "delay")],
+    *[
+        f"ensemble/{number}/{table}"
+        for number in ENSEMBLE
+        for table in MEMBER_TABLES
+        if table != "studies/disturbed-states.parquet"
+    ],
+    *[
+        f"studies/{group}.parquet"
+        for group in GROUPS
+        if group not in ("weights", "delay", "passages")
+    ],
 ]
