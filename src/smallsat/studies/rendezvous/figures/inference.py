@@ -2,6 +2,7 @@
 
 import numpy as np
 import pandas as pd
+from matplotlib.patches import Patch
 from matplotlib.pyplot import subplots
 
 from smallsat.drawing.figure import Drawing
@@ -35,9 +36,8 @@ def residuals(table: pd.DataFrame) -> Drawing:
     axes.axvline(0.0, color="black", lw=0.8)
     for edge in (-1.0, 1.0):
         axes.axvline(edge, color="0.5", lw=0.7, ls=":")
-    for kind in KINDS:
-        axes.barh([], [], color=f"C{KINDS.index(kind)}", label=kind)
-    axes.legend(fontsize=6)
+    handles = [Patch(color=f"C{place}", label=kind) for place, kind in enumerate(KINDS)]
+    axes.legend(handles=handles, fontsize=6)
     axes.set_ylim(-1, len(table))
     axes.set_xlabel("(computed - printed) / assumed error; to the right: printed / computed")
     axes.grid(visible=False, axis="y")
