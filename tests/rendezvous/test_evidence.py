@@ -132,7 +132,7 @@ def test_a_drag_along_the_flow_is_no_erratum(monkeypatch, section, on):
     assert not errata.drag_direction(on(section, Path("nowhere"))).holds
 
 
-def flown(folder, section, reading, **totals):
+def flown(folder, reading, **totals):
     """Made-up phases: (time, delta-v) a case, that did not dock where the time is zero."""
     folder.mkdir(parents=True, exist_ok=True)
     rows = [
@@ -165,10 +165,10 @@ def test_a_claim_needs_the_stated_share_of_the_ensemble(
     size = section.inference.ensemble.with_(sets=len(second), agree=0.8)
     section = section.with_(inference=section.inference.with_(ensemble=size))
     reading = section.inferred.readings.delta_v
-    flown(tmp_path, section, reading, v_bar=(1744, 13.3), r_bar=(1579, 12.1))
+    flown(tmp_path, reading, v_bar=(1744, 13.3), r_bar=(1579, 12.1))
     for number, (case, accepted) in enumerate(zip(second, acceptable, strict=True), start=1):
         folder = tmp_path / f"ensemble/{number:02d}"
-        flown(folder, section, reading, v_bar=(1744, 13.3), r_bar=case)
+        flown(folder, reading, v_bar=(1744, 13.3), r_bar=case)
         row = ParameterSet.configured(section).row | {"delta_v": reading, "acceptable": accepted}
         pd.DataFrame([row]).to_csv(folder / "set.csv", index=False)
     judged = claims.r_bar_takes_less(on(section, tmp_path))

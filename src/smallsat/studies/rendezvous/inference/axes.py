@@ -87,8 +87,6 @@ def axes(section: Cases, starts: np.ndarray, ledger: Ledger) -> pd.DataFrame:
         # The phase before, by the printed horizons and sample times.
         before = simulate([base], begun, (phase - 1, phase - 1))
         begun = before.ends[before.docked, phase - 1]
-        if not len(begun):
-            begun = starts[:0]
         limit = BEYOND * ledger.value(f"{printed['time_min']}/max").value * MINUTE
         flown = [
             simulate([_sampled(base, phase, horizon, time, limit)], begun, (phase, phase))
