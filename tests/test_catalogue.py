@@ -6,6 +6,7 @@ import pytest
 
 from smallsat.catalogue import read_catalogue
 from smallsat.errors import InputError
+from smallsat.evidence.summary import KIND_TITLES, value_kinds
 
 GOOD = "order: {order}\ntitle: A note\nsubject: Orbits\nvalues: 3\nartefacts: 1\n"
 
@@ -40,14 +41,25 @@ def test_a_wrong_study_is_named(tmp_path, content, message):
 
 
 def test_the_table_of_the_readme_follows_from_the_list(root):
-    """Study, document with author and year, number of values: a row a study, in their order."""
-    rows = [
-        f"| `{study.name}` | "
-        + ", ".join(str(part) for part in (study.title, study.author, study.year) if part)
-        + f" | {study.values} |"
-        for study in read_catalogue(root / "data/published")
-    ]
-    assert "\n".join(rows) in (root / "README.md").read_text()
+    """Study, document with author and year, results, timings and inputs: a row a study, in order.
+
+    Inputs are printed parameters, no results: nowhere may one number count both.
+    """
+    published, readme = root / "data/published", (root / "README.md").read_text()
+    kinds = value_kinds(published)
+    rows = []
+    for study in read_catalogue(published):
+        own = kinds[kinds.index.str.startswith(f"{study.name}/")]
+        counts = [str((own == kind).sum() or "") for kind in KIND_TITLES]
+        document = ", ".join(str(part) for part in (study.title, study.author, study.year) if part)
+        assert len(own) == study.values
+        rows.append(
+            " ".join(f"| {cell} ".rstrip() for cell in (f"`{study.name}`", document, *counts))
+            + " |"
+        )
+    assert "\n".join(rows) in readme
+    totals = ", ".join(f"{(kinds == kind).sum()} {kind}s" for kind in KIND_TITLES)
+    assert f"published values with stable ids: {totals}" in readme
 
 
 def test_no_study_is_named_outside_its_own_folders(root):

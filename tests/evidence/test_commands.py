@@ -16,6 +16,7 @@ from smallsat.evidence.grounds import Grounds
 from smallsat.evidence.ledger import ARTEFACT_COLUMNS, VALUE_COLUMNS, Ledger
 from smallsat.evidence.observation import Observation, observations_table
 from smallsat.evidence.summary import failures, value_kinds, verdict_counts
+from smallsat.evidence.verdicts import VERDICTS
 from smallsat.quantities import Part
 from smallsat.results import read_table, write_table
 
@@ -162,7 +163,16 @@ def test_from_observations_to_a_summary(published, tmp_path, config, time, statu
 
     summary = evidence("summary", merged, "--published", published)
     assert summary.returncode == status
-    assert f"3 of 3 published values have a verdict, {status} of them wrong." in summary.stdout
+    for count in (
+        f"1 of 1 results have a verdict, {status} of",
+        "1 of 1 inputs have a verdict, 0 of",
+    ):
+        assert count in summary.stdout
+    # Each kind has a table of its own; an input that is our own configuration is no result.
+    results_table, _, inputs_table = summary.stdout.split("\n\n")[:3]
+    assert results_table.startswith("Results\n") and inputs_table.startswith("Inputs, compared")
+    found = [int(table.split()[-len(VERDICTS) - 1]) for table in (results_table, inputs_table)]
+    assert found == [0 if status else 1, 1]
     assert ("transfer/a: printed 3.25, computed 3.3" in summary.stdout) == bool(status)
     assert evidence("summary", merged, "--published", published, "--what-if").returncode == 0
 

@@ -260,6 +260,24 @@ def test_a_solve_that_failed_is_no_result():
         assert (outcome.verdict, outcome.reason) == ("mismatch", failed.note)
 
 
+def test_counts_that_a_rule_judges_jointly_have_the_verdict_of_their_sum():
+    """Each is within the interval by itself; their sum, half a unit a number aside, is not."""
+    rows = [row(count) | {"id": f"transfer/{count}"} for count in ("2", "1", "6")]
+    ids = [one["id"] for one in rows]
+
+    def verdicts(high, jointly):
+        rule = {"ids": ids, "interval": "the states", "reason": "a sample", "jointly": jointly}
+        found = [Observation(name, 0.0, low=0.0, high=high) for name in ids]
+        judged = judge(rows, observations_table(found), [rule], [], [], proven(), Made())
+        return list(judged["verdict"]), judged["reason"].iloc[0]
+
+    assert verdicts(6.0, jointly=False)[0] == ["consistent"] * 3
+    joint, reason = verdicts(6.0, jointly=True)
+    assert joint == ["unreproducible"] * 3
+    assert "printed are 9 in all; interval 0 to 6" in reason
+    assert verdicts(8.0, jointly=True)[0] == ["consistent"] * 3
+
+
 def test_a_verdict_says_of_which_document_and_each_thing_once():
     assert {"id", "document", "printed", "computed", "unit"} <= set(VERDICT_COLUMNS)
     assert len(set(VERDICT_COLUMNS)) == len(VERDICT_COLUMNS)

@@ -94,6 +94,13 @@ def test_the_end_of_the_far_range_would_hold_inside_the_zone(section, tmp_path, 
     assert not errata.rendezvous_end_distance(on(section, tmp_path)).holds
 
 
+def test_the_corrected_end_of_the_far_range_must_be_what_is_flown(section, results, on, changed):
+    """Measured along the axis, or ended farther off than the distance, the phase ends otherwise."""
+    for key, value in (("readings.switches", "along axis"), ("switch_1", 1.001)):
+        other = changed(section, f"inferred.{key}", value)
+        assert not errata.rendezvous_end_distance(on(other, results)).holds
+
+
 def test_the_end_of_the_mid_range_needs_a_sample_that_is_far(section, tmp_path, on, changed):
     """A flight that is within r2 all the time shows nothing."""
     near = made_up(section)

@@ -11,25 +11,15 @@ from smallsat.studies.rendezvous.monte_carlo.cases import LP, NO_SET_POINT, swee
 
 NOWHERE = Path("nowhere")
 COUNT = 40
-GRIDS = {
-    "approach": ([5, 15, 30], [5.0, 10.0, 15.0, 20.0, 25.0, 30.0]),
-    "docking": ([5, 12, 30], [1.0, 3.0, 5.0, 10.0]),
-}
 
 
-def fly(folder, delta_v=None, infeasible_at=5, steps=None):
-    """Made-up sweeps: delta-v by phase, and the horizon at which 5 s is infeasible."""
-    delta_v = {"approach": 4.0, "docking": 0.3} | (delta_v or {})
-    time = {"approach": 600.0, "docking": 280.0}
-    for phase, grid in GRIDS.items():
-        table = synthetic.sweep(
-            phase, *grid, COUNT, lambda n, t, p=phase: delta_v[p], lambda n, t, p=phase: time[p]
-        )
-        table[f"{phase}_steps"] = (steps or {"approach": 60, "docking": 280})[phase]
-        if phase == "approach":
-            met = table["case"] == sweep_case(infeasible_at, 5.0)
-            table.loc[met, "approach_softened"] = 1
-        write_table(table, folder / f"studies/{phase}-sweep.parquet")
+def fly(folder, infeasible_at=5):
+    """A made-up sweep of the approach, with the horizon at which 5 s is infeasible."""
+    grid = [5, 15, 30], [5.0, 10.0, 15.0, 20.0, 25.0, 30.0]
+    table = synthetic.sweep("approach", *grid, COUNT, lambda n, t: 4.0, lambda n, t: 600.0)
+    met = table["case"] == sweep_case(infeasible_at, 5.0)
+    table.loc[met, "approach_softened"] = 1
+    write_table(table, folder / "studies/approach-sweep.parquet")
 
 
 def domain(folder, factor):
@@ -75,14 +65,21 @@ def test_approach_figures_swapped(section, tmp_path, grounds):
     assert not study_errata.approach_figures_swapped(grounds("rendezvous", section, tmp_path)).holds
 
 
-def test_docking_axis_label(section, tmp_path, grounds):
-    """With few intervals of docking, or an approach on little delta-v, the label may be right."""
-    fly(tmp_path)
-    assert study_errata.docking_axis_label(grounds("rendezvous", section, tmp_path)).holds
-    fly(tmp_path, steps={"approach": 280, "docking": 60})
-    assert not study_errata.docking_axis_label(grounds("rendezvous", section, tmp_path)).holds
-    fly(tmp_path, delta_v={"approach": 0.1})
-    assert not study_errata.docking_axis_label(grounds("rendezvous", section, tmp_path)).holds
+@pytest.mark.parametrize(
+    ("place", "other"),
+    [
+        # An approach with so short a sample time, or so few intervals, could be what is shown.
+        ("section-4-3/approach-sample-times-tested/item-1", "2"),
+        (f"figure-4-10-b/x-axis-tick-range-{study_errata.INTERVALS}/n3-5/max", "200"),
+        # A docking phase that ends sooner could not.
+        (f"figure-4-10-a/{study_errata.TIMES}/n3-5/max", "4"),
+    ],
+)
+def test_docking_axis_label(section, grounds, place, other):
+    """The printed axes alone tell which phase has so many intervals."""
+    assert study_errata.docking_axis_label(grounds("rendezvous", section, NOWHERE)).holds
+    changed = grounds("rendezvous", section, NOWHERE, {place: other})
+    assert not study_errata.docking_axis_label(changed).holds
 
 
 def test_appendix_caption(section, tmp_path, grounds):

@@ -29,7 +29,8 @@ class Observation:
         What a reader must know of this value, such as a solver that did not converge.
     low, high
         Ends of the interval in which the printed value must lie to agree with this run, where the
-        run is a sample or rests on inferred parameters.
+        run is a sample or rests on inferred parameters; of the sum, where the rule judges several
+        values jointly.
     """
 
     id: str

@@ -11,6 +11,14 @@ from smallsat.evidence.not_converged import read_not_converged
 from smallsat.evidence.verdicts import PENDING, TEXT_COLUMNS, VERDICTS
 from smallsat.results import read_table
 
+# Kinds of printed values, in the order in which they are counted. An input that equals our own
+# configuration is no result and is not counted as one.
+KIND_TITLES = {
+    "result": "Results",
+    "timing": "Timings, shown and not judged",
+    "input": "Inputs, compared with our own configuration",
+}
+
 
 def verdict_counts(verdicts: pd.DataFrame, kinds: pd.Series) -> pd.DataFrame:
     """Number of rows for each document and kind (rows) and verdict (columns).
@@ -37,7 +45,10 @@ def summary_text(
 ) -> str:
     """The few lines that end a build: counts, failures, unsolved cases, where the report lies."""
     counts = verdict_counts(verdicts, kinds)
-    lines = [counts.to_string(), ""]
+    lines = []
+    for kind, title in KIND_TITLES.items():
+        if kind in counts.index.unique("kind"):
+            lines += [title, counts.xs(kind, level="kind").to_string(), ""]
     wrong = failures(verdicts)
     lines += [
         f"{row.id}: printed {row.printed}, computed {row.computed}: {row.reason}"
@@ -47,10 +58,13 @@ def summary_text(
         f"not converged: {row.study}: {row.case}: {row.status}"
         for row in not_converged.itertuples()
     ]
-    judged = len(verdicts) - int((verdicts["verdict"] == PENDING).sum())
-    lines.append(
-        f"{judged} of {len(verdicts)} published values have a verdict, {len(wrong)} of them wrong."
-    )
+    kind_of = verdicts["id"].map(kinds)
+    for kind in KIND_TITLES:
+        own = verdicts[kind_of == kind]
+        judged = int((own["verdict"] != PENDING).sum())
+        lines.append(
+            f"{judged} of {len(own)} {kind}s have a verdict, {len(failures(own))} of them wrong."
+        )
     if len(not_converged):
         lines.append(
             f"{len(not_converged)} cases did not converge; they are left out of the figures."

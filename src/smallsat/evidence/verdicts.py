@@ -63,6 +63,9 @@ class Case:
         What the proof of its erratum found; empty where it is not listed as one.
     section
         The study's section of the configuration, which the bindings look into.
+    compared
+        What must lie in the interval of a rule: the printed number, or the sum of all numbers that
+        the rule judges jointly.
     """
 
     row: Row
@@ -72,6 +75,7 @@ class Case:
     binding: Entry
     proof: Entry
     section: Part
+    compared: Printed
 
     @property
     def shown(self) -> float:
@@ -147,18 +151,24 @@ def judge(
     proof_of = {proof["key"]: proof for proof in _records(proofs)}
     runs_of = {str(key): _records(group) for key, group in observations.groupby("id")}
 
+    printed_of = {row["id"]: _number(row["printed"]) for row in rows}
+
     judged = []
     for row in rows:
         identifier = row["id"]
         erratum = erratum_of.get(identifier)
+        rule = rule_of.get(identifier, {})
         case = Case(
             row=row,
-            printed=_number(row["printed"]),
+            printed=printed_of[identifier],
             runs=runs_of.get(identifier, []),
-            rule=rule_of.get(identifier, {}),
+            rule=rule,
             binding=binding_of.get(identifier, {}),
             proof=proof_of[erratum["key"]] if erratum else {},
             section=section,
+            compared=_sum([printed_of[other] for other in ids if rule_of.get(other) is rule])
+            if rule.get("jointly")
+            else printed_of[identifier],
         )
         outcome = next(found for ask in JUDGES if (found := ask(case)))
         judged.append({name: row.get(name, "") for name in VERDICT_COLUMNS} | outcome)
@@ -168,6 +178,11 @@ def judge(
 def _number(literal: str) -> Printed:
     """A literal as a number; not a number for a text."""
     return parse_printed(literal) or Printed(nan, nan)
+
+
+def _sum(numbers: Sequence[Printed]) -> Printed:
+    """The sum of printed numbers, as fine as their roundings leave it."""
+    return Printed(sum(one.value for one in numbers), sum(one.half_unit for one in numbers))
 
 
 def _records(table: pd.DataFrame) -> list[dict[str, Any]]:
@@ -266,18 +281,21 @@ def _not_computed(case: Case) -> Outcome | None:
 def _interval(case: Case) -> Outcome | None:
     """Consistent or unreproducible: agreement with a sample, or under inferred parameters.
 
-    Equal digits are no reproduction here: another sample or inference would give others.
+    Equal digits are no reproduction here: another sample or inference would give others. Where a
+    rule judges its numbers jointly, each has the verdict of their sum, whose interval a run has.
     """
     if "interval" not in case.rule:
         return None
-    printed, half_unit, rule = case.printed.value, case.printed.half_unit, case.rule
+    compared, half_unit, reason = case.compared.value, case.compared.half_unit, case.rule["reason"]
+    if case.rule.get("jointly"):
+        reason = f"{reason}; printed are {compared:g} in all"
     for run in case.solved:
         low, high = _ends(run)
-        if low - half_unit <= printed <= high + half_unit:
-            return case.decided("consistent", f"{rule['reason']}; {_interval_text(run)}", run)
-    nearest = min(case.solved, key=lambda run: abs(run["computed"] - printed))
-    found = case.decided("unreproducible", f"{rule['reason']}; {_interval_text(nearest)}", nearest)
-    return found | {"reason": f"{found['reason']}; missing: {rule['interval']}"}
+        if low - half_unit <= compared <= high + half_unit:
+            return case.decided("consistent", f"{reason}; {_interval_text(run)}", run)
+    nearest = min(case.solved, key=lambda run: abs(run["computed"] - case.printed.value))
+    found = case.decided("unreproducible", f"{reason}; {_interval_text(nearest)}", nearest)
+    return found | {"reason": f"{found['reason']}; missing: {case.rule['interval']}"}
 
 
 def _exact(case: Case) -> Outcome | None:

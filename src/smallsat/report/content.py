@@ -13,9 +13,9 @@ import pandas as pd
 from smallsat.catalogue import read_catalogue
 from smallsat.config import Values
 from smallsat.errors import InputError
-from smallsat.evidence.ledger import VALUE_KINDS, read_artefacts
+from smallsat.evidence.ledger import read_artefacts
 from smallsat.evidence.not_converged import read_not_converged
-from smallsat.evidence.summary import failures, value_kinds, verdict_counts
+from smallsat.evidence.summary import KIND_TITLES, failures, value_kinds, verdict_counts
 from smallsat.evidence.verdicts import PENDING
 from smallsat.report.inputs import input_groups
 from smallsat.report.number import significant_text
@@ -99,6 +99,7 @@ def collect(
     return {
         "run": _run(project, run, config, default),
         "verdicts": list(counts.columns),
+        "kinds": list(KIND_TITLES.items()),
         "documents": documents,
         "values": {str(row["id"]): value_texts(row) for row in records(verdicts)},
         "config": config,
@@ -149,8 +150,12 @@ def _study(
             for row in records(failures(verdicts))
         ],
         "pending": [
-            {"reason": reason, "values": len(rows)}
+            {
+                "reason": reason,
+                "counts": [[kind, n] for kind in KIND_TITLES if (n := kinds.get(kind))],
+            }
             for reason, rows in verdicts[waiting].groupby("reason", sort=False)
+            for kinds in [rows["kind"].value_counts().to_dict()]
         ],
         "unreproducible": [
             {"reason": reason, "places": sorted(set(rows["locator"])), "values": len(rows)}
@@ -181,9 +186,9 @@ def _seconds(results: Path) -> dict[str, float]:
 
 def _counts(counts: pd.DataFrame) -> list[Content]:
     return [
-        {"kind": kind, "total": int(counts.loc[kind].sum()), "numbers": counts.loc[kind].tolist()}
-        for kind in sorted(counts.index, key=["result", "timing", "input"].index)
-        if kind in VALUE_KINDS
+        {"kind": kind, "total": sum(numbers), "numbers": numbers}
+        for kind in KIND_TITLES
+        for numbers in counts[counts.index == kind].to_numpy().tolist()
     ]
 
 

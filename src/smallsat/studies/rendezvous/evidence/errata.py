@@ -7,6 +7,7 @@ from smallsat.evidence.errata import Proof
 from smallsat.evidence.grounds import Grounds
 from smallsat.studies.rendezvous.configuration import Configuration
 from smallsat.studies.rendezvous.evidence.case_tables import CASE_TABLES
+from smallsat.studies.rendezvous.guidance.law import DISTANCE, RENDEZVOUS
 from smallsat.studies.rendezvous.inference.misfit import printed_steps
 from smallsat.studies.rendezvous.model.geometry import cone_faces, rotated
 from smallsat.studies.rendezvous.model.prediction import terminal_weight, transition
@@ -189,18 +190,23 @@ def _places(grounds: Grounds, **columns: str) -> np.ndarray:
 
 
 def rendezvous_end_distance(grounds: Grounds[Configuration]) -> Proof:
-    """Algorithm 1: the end as printed never comes, for the keep-out constraint forbids it."""
-    keep_out = law(grounds.section, "v-bar").keep_out
+    """Algorithm 1: the end as printed never comes, for the keep-out constraint forbids it.
+
+    The corrected form is the one that is flown; the phase ends by it.
+    """
+    given = law(grounds.section, "v-bar")
     far, mid = (_places(grounds, flight="v-bar", phase=phase) for phase in ("far", "mid"))
     distance, end = np.linalg.norm(far, axis=1), float(np.linalg.norm(mid[0]))
-    never = bool((distance > keep_out - 1e-6 * keep_out).all() and end > keep_out)
+    switch, measured = given.switch_distances[RENDEZVOUS], given.switches[RENDEZVOUS]
+    never = bool((distance > given.keep_out - 1e-6 * given.keep_out).all())
+    flown = measured == DISTANCE and given.keep_out < end <= switch
     return Proof(
-        never,
+        never and flown,
         f"never within r1: {distance.min():.1f} m is the least of {len(far)} samples",
-        f"ends at {end:.1f} m",
+        f"with d = {switch:.1f} m, inferred, it ends at {end:.1f} m",
         f"Eq. 3.5 makes n'x >= r1 and so |x| >= r1 at every predicted step. In our run of "
-        f"Case 1 no sample of the far range comes within r1 = {keep_out:.1f} m, inferred; the "
-        f"end needs a margin above r1, which is not printed",
+        f"Case 1, which ends the phase by the corrected form, no sample of the far range comes "
+        f"within r1 = {given.keep_out:.1f} m, inferred",
     )
 
 

@@ -6,15 +6,24 @@ others are decided by what the manoeuvres of our studies do, and could come out 
 
 import numpy as np
 
+from smallsat.dynamics.units import MINUTE
 from smallsat.evidence.errata import Proof
 from smallsat.evidence.grounds import Grounds
+from smallsat.studies.rendezvous.evidence.monte_carlo_observations import DOCKING_TICKS
 from smallsat.studies.rendezvous.evidence.sensitivity_claims import SIMILAR
-from smallsat.studies.rendezvous.evidence.sweeps import DELTA_V, TIME, Sweep, infeasible_share
+from smallsat.studies.rendezvous.evidence.sweeps import (
+    DELTA_V,
+    STEPS,
+    TIME,
+    Sweep,
+    infeasible_share,
+)
 from smallsat.studies.rendezvous.monte_carlo.cases import LP, NO_SET_POINT
 from smallsat.studies.rendezvous.monte_carlo.tables import totals
 
 BY_ITSELF = "the document contradicts itself; nothing is computed"
 SMALL_SAVING = "section-4-2/interval-with-small-delta-v-difference/diminishing-returns/second"
+TIMES = "x-axis-tick-range-maneuver-time-min"
 INTERVALS = "number-of-control-intervals-label-printed-approach"
 
 
@@ -75,30 +84,27 @@ def docking_horizons(grounds: Grounds) -> Proof:
 
 
 def docking_axis_label(grounds: Grounds) -> Proof:
-    """Numbers of actuations and delta-v that the axes must show, in either phase."""
-    end, delta_v = (
-        grounds.ledger.value(f"figure-4-10-b/{axis}/n3-5/max").value
-        for axis in (f"x-axis-tick-range-{INTERVALS}", "y-axis-tick-range-docking-delta-v")
-    )
-    most, largest = {}, {}
-    for phase in ("approach", "docking"):
-        sweep = Sweep(grounds, phase)
-        most[phase] = _largest(sweep, "steps")
-        largest[phase] = _largest(sweep, DELTA_V)
+    """The time of the most intervals that the axis shows, against the printed axes of time.
+
+    An automatic axis shows more than its last tick but one.
+    """
+    end = grounds.ledger.value(f"figure-4-10-b/x-axis-tick-range-{INTERVALS}/n3-5/max").value
+    intervals = end - DOCKING_TICKS[STEPS]
+    filled, shown = {}, {}
+    for phase, tested, axis in (
+        ("approach", "section-4-3/approach-sample-times-tested", "figure-4-7-a/{}/n2-5/max"),
+        ("docking", "section-4-4/docking-sample-times-tested", "figure-4-10-a/{}/n3-5/max"),
+    ):
+        filled[phase] = min(_values(grounds, tested)) * intervals / MINUTE
+        shown[phase] = grounds.ledger.value(axis.format(TIMES)).value
     return Proof(
-        abs(most["docking"] - end) < abs(most["approach"] - end) and largest["approach"] > delta_v,
-        f"approach: up to {most['approach']:.0f} intervals and {largest['approach']:.1f} m/s",
-        f"docking: up to {most['docking']:.0f} intervals",
-        f"the axes reach {end:.0f} intervals and fractions of a metre per second, as "
-        f"the docking phase does and the approach phase does not",
-    )
-
-
-def _largest(sweep: Sweep, quantity: str) -> float:
-    """Largest value of a quantity over the cases of a sweep's shortest horizon."""
-    return max(
-        float(sweep.values(quantity, (sweep.horizons[0], t))[0].max(initial=0.0))
-        for t in sweep.sample_times
+        filled["docking"] <= shown["docking"] and filled["approach"] > shown["approach"],
+        f"approach: {intervals:g} intervals last {filled['approach']:.3g} min or longer, and the "
+        f"axis of its times ends at {shown['approach']:g} min",
+        f"docking: {filled['docking']:.3g} min or longer, on an axis to {shown['docking']:g} min",
+        f"an axis to {end:g} intervals shows more than {intervals:g}; of the phases' shortest "
+        f"tested sample times only that of the docking phase fits them into the printed axis of "
+        f"its times: {BY_ITSELF}",
     )
 
 
@@ -140,10 +146,13 @@ def _list(values: list[float]) -> str:
 def docking_recommendation(grounds: Grounds) -> Proof:
     """Section 4.4: the recommended sample times against the longest tested one."""
     tested = _values(grounds, "section-4-4/docking-sample-times-tested")
-    most = grounds.ledger.value("section-4-4/recommended-docking-sample-time/max").value
+    least, most = (
+        grounds.ledger.value(f"section-4-4/recommended-docking-sample-time/{end}").value
+        for end in ("min", "max")
+    )
     return Proof(
         max(tested) > most,
-        f"{_list(tested[1:3])} s, to minimise delta-v",
+        f"{least:g} to {most:g} s, to minimise delta-v",
         f"{max(tested):g} s, by the sentences before",
         f"the same section says that the smallest and the largest delta-v decrease with longer "
         f"sample times, of which {max(tested):g} s is the longest tested: {BY_ITSELF}",
