@@ -5,17 +5,22 @@ from smallsat.studies.rendezvous.inference.parameter_set import SEARCHES
 MANOEUVRE_SHARDS = Shard.all(CONFIG["rendezvous"].studies.shards)
 # Groups of manoeuvres, and where each begins: at an initial state, or where the baseline ended the
 # phase before.
+INITIAL, DISTURBED = "studies/initial-states.parquet", "studies/disturbed-states.parquet"
+DOMAIN = "studies/domain.parquet"
 GROUPS = {
-    "domain": "studies/initial-states.parquet",
-    "rendezvous-sweep": "studies/initial-states.parquet",
-    "approach-sweep": "studies/domain.parquet",
-    "docking-sweep": "studies/domain.parquet",
-    "weights": "studies/initial-states.parquet",
-    "delay": "studies/initial-states.parquet",
-    "prediction": "studies/disturbed-states.parquet",
-    "robustness": "studies/disturbed-states.parquet",
-    "passages": "studies/disturbed-states.parquet",
+    "domain": [INITIAL],
+    "rendezvous-sweep": [INITIAL],
+    "approach-sweep": [DOMAIN],
+    "docking-sweep": [DOMAIN],
+    "weights": [INITIAL],
+    "delay": [INITIAL],
+    "prediction": [DISTURBED],
+    "robustness": [DISTURBED],
+    "passages": [DISTURBED],
+    "ablations": [INITIAL, DISTURBED, DOMAIN],
 }
+# Groups that no claim rests on are flown with the configured set alone.
+NO_MEMBER_HAS = ("passages",)
 GROUP_TABLES = [f"studies/{group}.parquet" for group in GROUPS]
 FLIGHTS = ["flights.parquet", "paths.parquet", "phases.csv", "truth.csv"]
 INFERRED = [
@@ -25,6 +30,7 @@ INFERRED = [
     "identified.csv",
     "profiles.csv",
     "readings.csv",
+    "trade-offs.csv",
     "sets.csv",
     "lp-variants.csv",
 ]
@@ -39,11 +45,7 @@ MEMBER_TABLES = [
     "constraints.csv",
     "studies/initial-states.parquet",
     "studies/disturbed-states.parquet",
-    *[
-        f"studies/{group}.parquet"
-        for group in GROUPS
-        if group not in ("weights", "delay", "passages")
-    ],
+    *[f"studies/{group}.parquet" for group in GROUPS if group not in NO_MEMBER_HAS],
 ]
 
 step("rendezvous", "flights", makes=FLIGHTS, takes=Cases)
@@ -55,17 +57,27 @@ for search in SEARCHES:
         f"search-{search}",
         runs="search",
         part=search,
-        reads=["studies/initial-states.parquet"],
+        reads=[INITIAL],
         makes=[f"search-{search}.parquet"],
         published=["values.csv"],
         accepted=["sets.csv"],
         takes=Cases,
     )
 
+# A second method walks on from where the project's long walk ended.
+step(
+    "rendezvous",
+    "posterior",
+    reads=[INITIAL],
+    makes=["posterior.csv"],
+    published=["values.csv"],
+    accepted=["posterior.csv"],
+    takes=Cases,
+)
 step(
     "rendezvous",
     "inference",
-    reads=["studies/initial-states.parquet"] + [f"search-{search}.parquet" for search in SEARCHES],
+    reads=[INITIAL, "posterior.csv"] + [f"search-{search}.parquet" for search in SEARCHES],
     makes=INFERRED,
     published=["values.csv", "constraints.yaml"],
     takes=Cases,
@@ -85,7 +97,7 @@ step("rendezvous", "constraints", makes=["constraints.csv"])
 step(
     "rendezvous",
     "initial_states",
-    makes=["studies/initial-states.parquet", "studies/disturbed-states.parquet"],
+    makes=[INITIAL, DISTURBED],
     takes=MonteCarlo,
 )
 
@@ -97,7 +109,7 @@ for group, starts in GROUPS.items():
             runs="manoeuvres",
             part=group,
             shard=shard,
-            reads=[starts],
+            reads=starts,
             makes=[f"studies/shards/{group}-{shard}.parquet"],
             takes=MonteCarlo,
         )
@@ -160,9 +172,5 @@ JUDGED["rendezvous"] = [
         for table in MEMBER_TABLES
         if table != "studies/disturbed-states.parquet"
     ],
-    *[
-        f"studies/{group}.parquet"
-        for group in GROUPS
-        if group not in ("weights", "delay", "passages")
-    ],
+    *[f"studies/{group}.parquet" for group in GROUPS if group not in NO_MEMBER_HAS],
 ]

@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from smallsat.studies.rendezvous.inference import posterior
 from smallsat.studies.rendezvous.inference.axes import axes
 from smallsat.studies.rendezvous.inference.misfit import (
     WORST_SHARE,
@@ -21,7 +22,13 @@ from smallsat.studies.rendezvous.inference.parameter_set import (
     member,
 )
 from smallsat.studies.rendezvous.inference.search import evaluate, search
-from smallsat.studies.rendezvous.inference.summary import acceptable, identified, kept, profiles
+from smallsat.studies.rendezvous.inference.summary import (
+    acceptable,
+    identified,
+    kept,
+    profiles,
+    trade_offs,
+)
 from smallsat.studies.rendezvous.monte_carlo.initial_states import distribution, initial_states
 from smallsat.studies.rendezvous.simulation.delta_v import READINGS, summed
 
@@ -250,6 +257,18 @@ def test_what_is_identified_is_read_off_the_acceptable_sets(section):
     assert own["misfit"].idxmin() in own.index[4:8]
 
 
+def test_trade_offs_are_the_best_within_each_bound(section):
+    """Sets that hold the axes miss the cells; a bound below all has none."""
+    axes = np.geomspace(1.5, 100.0, 50)
+    parts = {"cell": 100.0 / axes, "feasibility": 5.0, "text": 1.0, "axes": axes}
+    table = pd.DataFrame(parts).assign(misfit=sum(parts.values()))
+    found = trade_offs(table).set_index(["held", "at_most"])
+    assert found.loc[("axes", 1.0), "sets"] == 0 and np.isnan(found.loc[("axes", 1.0), "misfit"])
+    assert found.loc[("axes", 2.0), "misfit"] > found.loc[("axes", 10.0), "misfit"]
+    assert found.loc[("axes", 50.0), "misfit"] == table["misfit"].min()
+    assert (found.loc["feasibility", "sets"].to_numpy() == [0, 0, 50, 50, 50, 50]).all()
+
+
 def test_the_ensemble_spans_the_acceptable_readings(section):
     """The best set first, every option that is acceptable, none that is not; then the others."""
     found = kept(section, made_up(section))
@@ -268,3 +287,35 @@ def test_the_kept_sets_span_every_option(section):
     for reading, options in OPTIONS.items():
         assert set(table[reading].astype(str)) == {str(option) for option in options}
     assert table["acceptable"].head(section.inference.ensemble.sets).all()
+
+
+def test_the_walk_finds_a_posterior_that_is_known(section, ledger, monkeypatch):
+    """Misfits of a paraboloid: means to 0.2 deviations, deviations to 15 %, and steps go on.
+
+    The misses add up to as many as there are beside the numbers, so that nothing is inflated.
+    """
+    bounds = section.inference.bounds
+    low, high = np.array([bounds[name] for name in FITTED], dtype=float).T
+    centre, width = 0.5 * (low + high), 0.02 * (high - low)
+
+    def paraboloid(section, sets, starts, ledger):
+        places = np.array([[one.values[name] for name in FITTED] for one in sets])
+        return pd.DataFrame({"misfit": (((places - centre) / width) ** 2).sum(axis=1)})
+
+    missed = pd.DataFrame({"residual": np.full(2 * len(FITTED), np.sqrt(0.5))})
+    monkeypatch.setattr(posterior, "evaluate", paraboloid)
+    monkeypatch.setattr(posterior, "configured_residuals", lambda *_: missed)
+    walkers = section.inference.posterior.with_(walkers=60, steps=600)
+    inference = section.inference.with_(posterior=walkers)
+    at_centre = section.inferred.with_(**dict(zip(FITTED, centre.tolist(), strict=True)))
+    given = section.with_(inference=inference, inferred=at_centre)
+    nothing = pd.DataFrame(columns=["step", "walker", *FITTED, "misfit"])
+    first = posterior.walk(given, nothing, np.zeros((1, 6)), ledger("rendezvous"))
+    walked = posterior.walk(given, first, np.zeros((1, 6)), ledger("rendezvous"))
+    assert list(walked["step"].unique()) == list(range(601, 1201))
+    found = (walked[FITTED] - centre) / width
+    assert np.abs(found.mean()).max() < 0.2
+    assert np.abs(found.std() - 1.0).max() < 0.15
+    table = posterior.marginals(walked).set_index("parameter")
+    spread = (table["posterior_high"] - table["posterior_low"]) / (2 * 1.645 * width)
+    assert np.abs(spread - 1.0).max() < 0.2

@@ -129,6 +129,13 @@ class Ensemble(Part):
     agree: Annotated[Number, Gt(0.5), Le(1)]
 
 
+class Posterior(Part):
+    """The walk over the fitted numbers: how many walkers, and how many steps each."""
+
+    walkers: Annotated[Integer, Interval(ge=20, le=1000)]
+    steps: Annotated[Integer, Interval(ge=1, le=100000)]
+
+
 class Inference(Part):
     """The search for what is not printed: its size, the errors it assumes, what it accepts."""
 
@@ -146,6 +153,7 @@ class Inference(Part):
     just_behind: Positive
     axis_error: Positive
     acceptable: Annotated[Number, Interval(ge=1)]
+    posterior: Posterior
     ensemble: Ensemble
     bounds: Bounds
 
@@ -204,6 +212,13 @@ class Delay(Part):
 
 class Prediction(Part):
     inclinations_deg: Several[Inclination]
+
+
+class Ablations(Part):
+    """Parts of the algorithm left out or changed, beyond the document."""
+
+    plane_rates: Growing[Positive]
+    corridor_deg: Annotated[Number, Gt(0), Lt(90)]
 
 
 class ThrustError(Part):
@@ -271,6 +286,7 @@ class Flown(Part):
     weights: Weights
     delay: Delay
     prediction: Prediction
+    ablations: Ablations
     robustness: Robustness
     passages: Passages
 

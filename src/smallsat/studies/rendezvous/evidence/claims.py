@@ -154,6 +154,32 @@ def r_bar_takes_less(grounds: Grounds) -> Judgement:
     )
 
 
+@over_ensemble
+def r_bar_goes_less_far_around(grounds: Grounds) -> Judgement:
+    """The far range of Case 2 must go less far around the target than that of Case 1."""
+    far = grounds.rows("flights.parquet", phase="far")
+    along, radial = _way_around(far, "v-bar"), _way_around(far, "r-bar")
+    table = grounds.table("phases.csv").set_index(["flight", "phase"])["ended"]
+    if not (table["v-bar", "far"] and table["r-bar", "far"]):
+        raise LookupError("a far range does not end")
+    return judged(
+        abs(radial) < abs(along),
+        f"the far range of Case 1 goes {abs(along):.0f} deg around the target, that of Case 2 "
+        f"{abs(radial):.0f} deg",
+    )
+
+
+@over_ensemble
+def all_cases_dock(grounds: Grounds) -> Judgement:
+    """Chapter 7: the final phases of the three cases must end, in linear motion."""
+    table = grounds.rows("phases.csv", phase="final").set_index("flight")["ended"]
+    docked = [case for case in CASE_TABLES if table[case]]
+    return judged(
+        len(docked) == len(CASE_TABLES),
+        f"{len(docked)} of {len(CASE_TABLES)} cases dock: {', '.join(docked)}",
+    )
+
+
 def _printed(grounds: Grounds, case: str, quantity: str, phase: str = TOTAL) -> float:
     return grounds.ledger.value(cell_id(quantity, case, phase)).value
 
@@ -260,11 +286,11 @@ def guided_around_the_zone(grounds: Grounds[Configuration]) -> Judgement:
     )
 
 
-def _way_around(flights: pd.DataFrame, case: str) -> tuple[float, bool]:
-    """Angle flown about the target in the orbit's plane, deg, and whether the cone was reached."""
+def _way_around(flights: pd.DataFrame, case: str) -> float:
+    """Angle flown about the target in the orbit's plane, deg."""
     own = flights[flights["flight"] == case]
     angle = np.unwrap(np.arctan2(own["y_m"], own["x_m"]))
-    return float(np.degrees(angle[-1] - angle[0])), bool((own["phase"] == "mid").any())
+    return float(np.degrees(angle[-1] - angle[0]))
 
 
 @over_ensemble
@@ -276,8 +302,8 @@ def lp_takes_another_way(grounds: Grounds) -> Judgement:
     nothing. This is the reading since a first run, in which it did not.
     """
     flights = grounds.table("flights.parquet")
-    quadratic, _ = _way_around(flights, "v-bar")
-    linear, reached = _way_around(flights, "lp")
+    quadratic, linear = _way_around(flights, "v-bar"), _way_around(flights, "lp")
+    reached = ((flights["flight"] == "lp") & (flights["phase"] == "mid")).any()
     text = f"about the target the QP turns by {quadratic:+.0f} deg, the LP by {linear:+.0f} deg"
     if not reached or quadratic * linear >= 0.0:
         return Judgement("undecided", f"{text}, with the weights at hand, which are not printed")

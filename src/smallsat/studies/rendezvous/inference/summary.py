@@ -21,6 +21,8 @@ BINS = 12
 # Shares of its bounds that an identified parameter's acceptable values fill at most.
 IDENTIFIED, LOOSE = 0.25, 0.6
 COUPLED = 0.7
+# How much of a part of the misfit is allowed, where the rest is looked at.
+ALLOWED = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
 LP_SET_POINTS = ("none", "as the quadratic program's")
 LP_CONTROL = (1e2, 1e3, 1e4)
 LP_TERMINAL = (1.0, 1e2, 1e4, 1e5)
@@ -155,6 +157,24 @@ def readings(evaluated: pd.DataFrame) -> pd.DataFrame:
         for option in options:
             own = evaluated[evaluated[question] == str(option)]
             add(question, str(option), own, own["misfit"])
+    return pd.DataFrame(rows)
+
+
+def trade_offs(evaluated: pd.DataFrame) -> pd.DataFrame:
+    """What the rest of the misfit has to be where feasibility, or the axes, are nearly held.
+
+    A row a part of the misfit and a bound of it: the best set within the bound, and how many are.
+    """
+    rows: list[dict[str, Any]] = []
+    for kind in ("feasibility", "axes"):
+        for most in ALLOWED:
+            own = evaluated[evaluated[kind] <= most]
+            best: Any = own.nsmallest(1, "misfit").to_dict("records")
+            values = best[0] if best else {}
+            rows.append(
+                {"held": kind, "at_most": most, "sets": len(own), "misfit": values.get("misfit")}
+                | {one: values.get(one) for one in KINDS}
+            )
     return pd.DataFrame(rows)
 
 

@@ -22,6 +22,9 @@ from smallsat.studies.rendezvous.simulation.motion import NonlinearMotion
 # Names that others look for.
 BASELINE, NO_SET_POINT, LP = "baseline", "no set point", "LP"
 AS_DOCUMENTED, UNDISTURBED, FILTERED = "as documented", "undisturbed", "Kalman filter"
+NO_PENALTY, NO_ZONE, NO_REFERENCE = "no terminal penalty", "no zone", "no reference in approach"
+NO_SET_POINT_NO_ZONE = "no set point, no zone"
+LP_DISTURBED, LP_UNDISTURBED = "LP, disturbed", "LP, undisturbed"
 CLOHESSY_WILTSHIRE, SCHWEIGHART_SEDWICK = "Clohessy-Wiltshire", "Schweighart-Sedwick"
 
 
@@ -73,6 +76,16 @@ def delay_case(delay: float, known: bool) -> str:
 def prediction_case(model: str, inclination: float) -> str:
     """Name of a case with a prediction model, over an orbit's inclination in degrees."""
     return f"{model}, {inclination:g} deg"
+
+
+def planes_case(rate: float) -> str:
+    """Name of a case whose planes may turn at another rate, in mean motions."""
+    return f"planes at {rate:g} n"
+
+
+def corridor_case(sample_time: float) -> str:
+    """Name of a docking without its corridor at a sample time."""
+    return f"no corridor, Ts {sample_time:g} s"
 
 
 def base(section: MonteCarlo, case: str = "v-bar") -> Law:
@@ -195,6 +208,40 @@ def _passages(section: MonteCarlo) -> list[Case]:
     return [Case("passages", farthest, motion=motion, runs=settings.runs)]
 
 
+def _ablations(section: MonteCarlo) -> list[Case]:
+    """What the document says that a part of the algorithm is for, seen by leaving the part out.
+
+    Sections 2.2.1 (LP), 3.1.2 (penalty), 3.1.3 (zone, faster planes), 3.2.1 (reference), 3.6.4 (set
+    point against zone) and 4.4 (corridor).
+    """
+    law, settings = base(section), section.studies.ablations
+    nowhere = -2000.0 * max(section.studies.distance_km)  # planes so far behind bind nothing
+    first, *_, last = section.studies.docking.sample_times_s
+    wide = law.with_(cone_angles=in_phase(law.cone_angles, 2, np.radians(settings.corridor_deg)))
+    rendezvous = (0, 0)
+    found = [
+        Case(NO_PENALTY, law.with_(penalties=in_phase(law.penalties, 0, 0.0)), rendezvous),
+        Case(NO_ZONE, law.with_(keep_out=nowhere), rendezvous),
+        Case(
+            NO_SET_POINT_NO_ZONE,
+            base(section, "no-set-point").with_(keep_out=nowhere),
+            rendezvous,
+        ),
+        *(
+            Case(planes_case(rate), law.with_(plane_rate=rate), rendezvous)
+            for rate in settings.plane_rates
+        ),
+        Case(NO_REFERENCE, law.with_(set_points=(law.set_points[0], 0.0)), (1, 1)),
+        *(Case(corridor_case(t), _sampled(wide, 2, t), (2, 2)) for t in (first, last)),
+    ]
+    linear = base(section, "lp")
+    runs = section.studies.robustness.variant_runs
+    for name, count, disturbed in ((LP_DISTURBED, runs, True), (LP_UNDISTURBED, 1, False)):
+        motion = disturbed_motion(section, linear, disturbed, disturbed)
+        found.append(Case(name, linear, rendezvous, motion, count))
+    return found
+
+
 # Each group is one table of results, made in shards.
 GROUPS: dict[str, Callable[[MonteCarlo], list[Case]]] = {
     "domain": _domain,
@@ -206,6 +253,7 @@ GROUPS: dict[str, Callable[[MonteCarlo], list[Case]]] = {
     "prediction": _prediction,
     "robustness": _robustness,
     "passages": _passages,
+    "ablations": _ablations,
 }
 
 

@@ -13,6 +13,7 @@ from smallsat.studies.rendezvous.configuration import MonteCarlo
 from smallsat.studies.rendezvous.model.columns import STATE
 from smallsat.studies.rendezvous.monte_carlo.cases import PHASES, Case
 from smallsat.studies.rendezvous.monte_carlo.tables import (
+    COUNTS,
     PASSAGES,
     SCHEMA,
     column,
@@ -120,8 +121,9 @@ def fill(rows: dict[str, np.ndarray], found: Manoeuvres, reading: str) -> None:
     """
     rows["completed"][:] = found.docked
     rows["end_phase"][:] = 1 + np.argmax(found.end_times, axis=1)
+    rows["closest_m"][:] = found.closest
     for k, phase in enumerate(PHASES):
-        for name in ("steps", "softened", "outside", "failed"):
+        for name in COUNTS:
             rows[column(phase, name)][:] = getattr(found, name)[:, k]
         before = found.end_times[:, :k].max(axis=1, initial=0.0)
         there = found.steps[:, k] > 0

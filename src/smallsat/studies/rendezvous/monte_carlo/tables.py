@@ -11,7 +11,7 @@ from smallsat.studies.rendezvous.model.columns import STATE
 from smallsat.studies.rendezvous.monte_carlo.cases import PHASES
 
 # What each phase has; a phase that is left out has no steps, no time, and no end.
-COUNTS = ("steps", "softened", "outside", "failed")
+COUNTS = ("steps", "softened", "outside", "failed", "iterations")
 SUMS = ("time_s", "delta_v_m_s", "norm_delta_v_m_s", "axes_delta_v_m_s")
 KEY = ("case", "sample", "run")
 
@@ -31,7 +31,8 @@ def end_columns(phase: str) -> list[str]:
 # ``delta_v`` in the configured reading, ``norm_delta_v`` by Euclidean norms, ``axes_delta_v`` by
 # absolute components. Programs are counted in which a hard row had to give way (``softened``),
 # whose first state violated one already (``outside``), and that the solver gave up (``failed``); as
-# stated, the first two kinds have no solution.
+# stated, the first two kinds have no solution. ``closest_m`` is the least distance from the target
+# at the samples of the first phase.
 SCHEMA = pa.schema(
     [
         pa.field("case", pa.large_string(), nullable=False),
@@ -39,6 +40,7 @@ SCHEMA = pa.schema(
         pa.field("run", pa.int32(), nullable=False),
         pa.field("completed", pa.bool_(), nullable=False),
         pa.field("end_phase", pa.int8(), nullable=False),
+        pa.field("closest_m", pa.float64(), nullable=False),
         *[
             pa.field(name, kind, nullable=False)
             for phase in PHASES

@@ -123,6 +123,8 @@ class Manoeuvres(NamedTuple):
         solved (the last plan's next control was taken instead), (M, 3).
     iterations
         Steps of the solver, (M, 3).
+    closest
+        Least distance from the target at the start of a step of the far range, m, (M,).
     records, passages
         What was asked for of all steps, and of other docking distances and time limits.
     """
@@ -139,6 +141,7 @@ class Manoeuvres(NamedTuple):
     outside: np.ndarray
     failed: np.ndarray
     iterations: np.ndarray
+    closest: np.ndarray
     records: Steps
     passages: Passages
 
@@ -220,6 +223,7 @@ def _nothing_yet(
         outside=number(3),
         failed=number(3),
         iterations=number(3),
+        closest=np.full(count, np.inf),
         records=Steps(
             time=value(steps),
             phase=number(steps),
@@ -266,6 +270,8 @@ def _simulate(law, start, phases, motion, generator, memory, m, found):
             copy(estimate, expected)
             apply_transition(law.predictions_before[phase], expected)
             control = next_control(law, phase, expected, time, memory, command)
+            if phase == RENDEZVOUS:
+                found.closest[m] = min(found.closest[m], np.linalg.norm(state[:3]))
             if found.records.time.shape[1] > 0:
                 _record(found.records, m, step, time, phase, state, command, control)
             coast(motion, pair, law.drifts_before[phase], time, delay, burn, idle)

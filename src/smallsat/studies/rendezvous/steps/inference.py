@@ -9,6 +9,7 @@ from smallsat.strict_yaml import read_yaml
 from smallsat.studies.rendezvous.configuration import Cases
 from smallsat.studies.rendezvous.inference import summary
 from smallsat.studies.rendezvous.inference.parameter_set import SEARCHES
+from smallsat.studies.rendezvous.inference.posterior import marginals
 from smallsat.studies.rendezvous.model.columns import STATE
 
 
@@ -27,9 +28,12 @@ def run(step: Step[Cases]) -> Tables:
             step.section, read_yaml(step.published / "constraints.yaml")
         ),
         "residuals.csv": summary.configured_residuals(step.section, starts, ledger),
-        "identified.csv": summary.identified(step.section, evaluated),
+        "identified.csv": summary.identified(step.section, evaluated).merge(
+            marginals(read_table(step.results / "posterior.csv")), on="parameter"
+        ),
         "profiles.csv": summary.profiles(step.section, evaluated),
         "readings.csv": summary.readings(evaluated),
+        "trade-offs.csv": summary.trade_offs(evaluated),
         "sets.csv": summary.kept(step.section, evaluated),
         "lp-variants.csv": summary.linear_programs(step.section, ledger),
     }
