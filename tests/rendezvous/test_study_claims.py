@@ -14,7 +14,11 @@ from smallsat.studies.rendezvous.evidence.monte_carlo_observations import (
     predictive_maximum,
 )
 from smallsat.studies.rendezvous.evidence.sensitivity_claims import proportion_interval
-from smallsat.studies.rendezvous.monte_carlo.cases import AS_DOCUMENTED, FILTERED, UNDISTURBED
+from smallsat.studies.rendezvous.monte_carlo.cases import (
+    AS_DOCUMENTED,
+    UNDISTURBED,
+    near_errors_case,
+)
 
 COUNT = 120
 RENDEZVOUS = ([15, 30, 45], [20.0, 30.0, 40.0, 50.0, 60.0])
@@ -173,21 +177,21 @@ def disturbed(case, runs, docking_time, docking_delta_v, completed=1.0):
 
 
 @pytest.mark.parametrize(
-    ("noisy", "filtered", "share", "outcomes"),
+    ("noisy", "better", "share", "outcomes"),
     [
         ((1500.0, 4.0), (320.0, 0.3), 1.0, ("holds", "holds", "holds", "holds")),
         ((330.0, 0.25), (1500.0, 4.0), 0.5, (None, "fails", "fails", "fails")),
     ],
 )
-def test_robustness_claims(judge, section, tmp_path, noisy, filtered, share, outcomes):
-    """A chaser that bounces and a filter that helps; then one that does not, and one that hurts."""
+def test_robustness_claims(judge, section, tmp_path, noisy, better, share, outcomes):
+    """A chaser that bounces and sensors that help; then one that does not, and ones that hurt."""
     rows = [
         disturbed(UNDISTURBED, 1, 300.0, 0.2),
         disturbed(AS_DOCUMENTED, 5, *noisy, share),
-        disturbed(FILTERED, 5, *filtered),
+        disturbed(near_errors_case(0.1), 5, *better),
     ]
     write(tmp_path, robustness=synthetic.pd.concat(rows, ignore_index=True))
-    names = ("increase-docking", "bounce", "robust", "filter")
+    names = ("increase-docking", "bounce", "robust", "near-sensors")
     found = judge(section, tmp_path, names)
     for name, outcome in zip(names, outcomes, strict=True):
         assert outcome is None or found[name] == outcome, name

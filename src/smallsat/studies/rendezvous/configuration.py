@@ -7,6 +7,7 @@ from pydantic import StrictBool
 
 from smallsat.quantities import (
     Count,
+    Fraction,
     Growing,
     Inclination,
     Integer,
@@ -242,7 +243,10 @@ class Filter(Part):
 
 
 class Robustness(Part):
-    """Chapter 5; ``variant_runs`` are of what goes beyond the document."""
+    """Chapter 5; ``variant_runs`` are of what goes beyond the document.
+
+    That is the filter, and ``near_error_shares``, deviations near the port as shares of the others.
+    """
 
     seed: Seed
     states: Annotated[Integer, Interval(ge=1, le=100000)]
@@ -253,6 +257,7 @@ class Robustness(Part):
     minimum_on_time_s: NonNegative
     thrust_error: ThrustError
     filter: Filter
+    near_error_shares: Several[Fraction]
 
 
 class Passages(Part):

@@ -6,6 +6,7 @@ that does not begin with the first phase begins where the baseline ended the pha
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -21,7 +22,7 @@ from smallsat.studies.rendezvous.simulation.motion import NonlinearMotion
 
 # Names that others look for.
 BASELINE, NO_SET_POINT, LP = "baseline", "no set point", "LP"
-AS_DOCUMENTED, UNDISTURBED, FILTERED = "as documented", "undisturbed", "Kalman filter"
+AS_DOCUMENTED, UNDISTURBED = "as documented", "undisturbed"
 NO_PENALTY, NO_ZONE, NO_REFERENCE = "no terminal penalty", "no zone", "no reference in approach"
 NO_SET_POINT_NO_ZONE = "no set point, no zone"
 LP_DISTURBED, LP_UNDISTURBED = "LP, disturbed", "LP, undisturbed"
@@ -71,6 +72,11 @@ def weighted_sweep_case(factor: float, sample_time: float) -> str:
 def delay_case(delay: float, known: bool) -> str:
     """Name of a case in which the control acts late."""
     return f"delay {delay:g} s, {'predicted' if known else 'not predicted'}"
+
+
+def near_errors_case(share: float) -> str:
+    """Name of a case whose measurement errors fall with the range, to a share near the port."""
+    return f"errors {share:g} times as large near the port"
 
 
 def prediction_case(model: str, inclination: float) -> str:
@@ -179,16 +185,20 @@ def _prediction(section: MonteCarlo) -> list[Case]:
 
 
 def _robustness(section: MonteCarlo) -> list[Case]:
-    """Chapter 5, and with its disturbances one by one or with a filter."""
+    """Chapter 5, and with its disturbances one by one, with a filter, or with better sensors."""
     law, table = base(section), section.studies.robustness
     few = table.variant_runs
-    variants: dict[str, tuple[int, dict[str, bool]]] = {
+    variants: dict[str, tuple[int, dict[str, Any]]] = {
         UNDISTURBED: (1, {"thrust_error": False, "measurement_error": False}),
         AS_DOCUMENTED: (table.runs, {}),
         "thrust error alone": (few, {"measurement_error": False}),
         "measurement error alone": (few, {"thrust_error": False}),
-        FILTERED: (few, {"filtered": True}),
+        "Kalman filter": (few, {"filtered": True}),
         "burns in place of impulses": (few, {"burns": True}),
+        **{
+            near_errors_case(share): (few, {"near_error_share": share})
+            for share in table.near_error_shares
+        },
     }
     return [
         Case(name, law, motion=disturbed_motion(section, law, **changes), runs=runs)

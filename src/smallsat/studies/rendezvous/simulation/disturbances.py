@@ -48,6 +48,8 @@ def nonlinear_motion(section: Flight, law: Law, actuation: int) -> NonlinearMoti
         measured=False,
         position_deviation=0.0,
         velocity_deviation=0.0,
+        full_error_from=0.0,
+        least_error_share=1.0,
         filtered=False,
         filter_model=FilterModel(*(0.0 for _ in FilterModel._fields)),
         filter_transitions=np.zeros((3, 6, 6)),
@@ -61,8 +63,13 @@ def disturbed_motion(
     measurement_error: bool = True,
     filtered: bool = False,
     burns: bool = False,
+    near_error_share: float = 1.0,
 ) -> NonlinearMotion:
-    """Nonlinear motion with all disturbances of chapter 5, or some; gravity and drag always."""
+    """Nonlinear motion with all disturbances of chapter 5, or some; gravity and drag always.
+
+    Measurement errors fall to ``near_error_share`` of the printed ones from where the law's far
+    range ends, see `smallsat.studies.rendezvous.model.measurement_noise`.
+    """
     table = section.studies.robustness
     noise, reading = thrust_noise(table.thrust_error), table.thrust_error.reading
     steps = [interval(noise, reading, duration) for duration in law.sample_times]
@@ -76,6 +83,8 @@ def disturbed_motion(
         measured=True,
         position_deviation=table.position_deviation_m if measurement_error else 0.0,
         velocity_deviation=table.velocity_deviation_m_s if measurement_error else 0.0,
+        full_error_from=law.switch_distances[0] if near_error_share < 1.0 else 0.0,
+        least_error_share=near_error_share,
         filtered=filtered,
         filter_model=FilterModel(
             position_error=table.position_deviation_m,

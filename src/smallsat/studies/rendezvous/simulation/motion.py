@@ -14,6 +14,7 @@ import numpy as np
 from smallsat.dynamics.compiled import compiled
 from smallsat.studies.rendezvous.model import actuation_noise, navigation_filter
 from smallsat.studies.rendezvous.model.actuation_noise import Interval
+from smallsat.studies.rendezvous.model.measurement_noise import error_share
 from smallsat.studies.rendezvous.model.navigation_filter import FilterModel
 from smallsat.studies.rendezvous.model.thrusters import pulse_on_times, thrust_acceleration
 from smallsat.studies.rendezvous.model.truth import (
@@ -49,6 +50,8 @@ class NonlinearMotion(NamedTuple):
         Whether the law knows measurements only; else it knows the state.
     position_deviation, velocity_deviation
         Standard deviations of a measurement's error along each axis (Eqs. 5.6 and 5.7).
+    full_error_from, least_error_share
+        Where they fall with the range, see `measurement_noise.error_share`; zero and one: nowhere.
     filtered
         Whether a Kalman filter stands between measurement and guidance.
     filter_model, filter_transitions
@@ -68,6 +71,8 @@ class NonlinearMotion(NamedTuple):
     measured: bool
     position_deviation: float
     velocity_deviation: float
+    full_error_from: float
+    least_error_share: float
     filtered: bool
     filter_model: FilterModel
     filter_transitions: np.ndarray
@@ -239,7 +244,8 @@ def next_estimate(motion, phase, duration, command, state, generator, estimate, 
 def _measured(motion, state, generator):
     """Return a relative state (6,) with independent normal errors."""
     measured = np.empty(6)
+    share = error_share(state, motion.full_error_from, motion.least_error_share)
     for k in range(6):
         deviation = motion.position_deviation if k < 3 else motion.velocity_deviation
-        measured[k] = state[k] + deviation * generator.standard_normal()
+        measured[k] = state[k] + share * deviation * generator.standard_normal()
     return measured
