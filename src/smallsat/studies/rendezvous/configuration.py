@@ -194,6 +194,15 @@ class Solvers(Part):
     programs: Annotated[Integer, Interval(ge=1, le=10000)]
 
 
+class Elliptic(Part):
+    """Predictions near elliptic orbits, from initial states at so many places of each."""
+
+    eccentricities: Growing[Fraction]
+    states: Annotated[Integer, Interval(ge=1, le=1000)]
+    anomalies: Annotated[Integer, Interval(ge=1, le=360)]
+    look_ahead_s: Growing[Positive]
+
+
 class Sweep(Part):
     horizons: Growing[Horizon]
     sample_times_s: Annotated[Growing[Positive], Len(2)]
@@ -331,4 +340,5 @@ class MonteCarlo(Flight):
 
 class Configuration(Cases, MonteCarlo):
     solvers: Solvers
+    elliptic: Elliptic
     studies: Studies
