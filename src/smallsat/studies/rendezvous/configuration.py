@@ -251,10 +251,21 @@ class Filter(Part):
     other_acceleration_m_s2: NonNegative
 
 
+class Tube(Part):
+    """Of robust MPC: bounds of disturbances in standard deviations, and what must be left.
+
+    The share is that of the docking distance, and of the bounds on speed and control.
+    """
+
+    deviations: Positive
+    share: Annotated[Number, Gt(0), Lt(1)]
+
+
 class Robustness(Part):
     """Chapter 5; ``variant_runs`` are of what goes beyond the document.
 
-    That is the filter, and ``near_error_shares``, deviations near the port as shares of the others.
+    That is the filter, the tube, and ``near_error_shares``, deviations near the port as shares of
+    the others.
     """
 
     seed: Seed
@@ -267,6 +278,7 @@ class Robustness(Part):
     thrust_error: ThrustError
     filter: Filter
     near_error_shares: Several[Fraction]
+    tube: Tube
 
 
 class Passages(Part):

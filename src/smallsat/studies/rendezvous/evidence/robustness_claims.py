@@ -26,6 +26,7 @@ from smallsat.studies.rendezvous.monte_carlo.cases import (
     AS_DOCUMENTED,
     CLOHESSY_WILTSHIRE,
     SCHWEIGHART_SEDWICK,
+    TUBE,
     UNDISTURBED,
     near_errors_case,
     prediction_case,
@@ -37,6 +38,7 @@ BOUNCING = 2.0  # docking takes this many times the undisturbed time
 CONSIDERABLY = 0.25
 ROBUST = 0.95  # share of the manoeuvres that end within the limit
 CLOSE = 0.25
+FEWER = 0.01  # of the manoeuvres may dock less where none are to be lost
 
 ROBUSTNESS = "studies/robustness.parquet"
 
@@ -104,6 +106,15 @@ def guidance_is_robust(grounds: Grounds) -> Judgement:
     return judgement(above(found, ROBUST), "share that docks within the limit, to be 95 %", found)
 
 
+def _same_runs(
+    grounds: Grounds[Configuration], first: str, second: str
+) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Both cases by state, of the runs that a variant has: those with common random numbers."""
+    table = grounds.table(ROBUSTNESS)
+    table = table[table["run"] < grounds.section.studies.robustness.variant_runs]
+    return by_state(table, first), by_state(table, second)
+
+
 @over_ensemble
 def smaller_errors_near_help(grounds: Grounds[Configuration]) -> Judgement:
     """Sections 5.4 and 5.5: docking time, delta-v and time with smaller errors near the target.
@@ -113,9 +124,7 @@ def smaller_errors_near_help(grounds: Grounds[Configuration]) -> Judgement:
     longer. Both sides have the same runs, with the same random numbers.
     """
     best = near_errors_case(min(grounds.section.studies.robustness.near_error_shares))
-    table = grounds.table(ROBUSTNESS)
-    table = table[table["run"] < grounds.section.studies.robustness.variant_runs]
-    raw, better = (by_state(table, case) for case in (AS_DOCUMENTED, best))
+    raw, better = _same_runs(grounds, AS_DOCUMENTED, best)
     bounce, *sums = (
         effect(
             name, median((better[key] / raw[key] - 1.0).to_numpy()), len(raw), bootstrap(grounds), 3
@@ -129,6 +138,32 @@ def smaller_errors_near_help(grounds: Grounds[Configuration]) -> Judgement:
         f"median change of the means with {best}, to be a drop, and of delta-v and time in all one "
         "by a quarter or more",
         [bounce, *sums],
+    )
+
+
+@over_ensemble
+def tube_benefits_robustness(grounds: Grounds[Configuration]) -> Judgement:
+    """Sections 3.7, 5.5 and 7: a tube around the docking phase, under the disturbances of 5.4.
+
+    The text promises robustness, stability and knowledge of the response and no saving: runs from
+    one state are to differ less, and no fewer of them are to dock.
+    """
+    raw, tube = _same_runs(grounds, AS_DOCUMENTED, TUBE)
+    more = (tube["completed"] - raw["completed"]).to_numpy()
+    docks = effect("share that docks", mean(more), len(more), bootstrap(grounds), 3)
+    spreads = []
+    for quantity in (DELTA_V, TIME):
+        before, after = (rows[f"deviation_{quantity}"].to_numpy() for rows in (raw, tube))
+
+        def change(drawn: np.ndarray, before=before, after=after) -> np.ndarray:
+            return after[drawn].mean(axis=1) / before[drawn].mean(axis=1) - 1.0
+
+        name = f"deviation of {WORDS[quantity]}"
+        spreads.append(effect(name, change, len(before), bootstrap(grounds), 3))
+    return judgement(
+        together(above([docks], -FEWER), above(negative(spreads))),
+        f"changes with a tube, of the first not to be below {-FEWER:g}, of the others to be drops",
+        [docks, *spreads],
     )
 
 

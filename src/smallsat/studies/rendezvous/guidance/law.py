@@ -56,6 +56,11 @@ SETTINGS = np.dtype(
         ("drifts_after", float, (3, 6, 6)),
         ("predictions_before", float, (3, 6, 6)),  # the law's own, to make up for the delay
         ("delays", float, (3,)),
+        ("has_tube", np.int64),
+        ("feedback", float, (3, 6)),
+        ("feedback_bound", float),
+        ("cone_margin", float),
+        ("speed_margin", float),
     ],
     align=True,
 )
@@ -64,7 +69,7 @@ AS_THEY_ARE = (
     "horizons", "sample_times", "control_bounds", "speed_bound", "axis", "rotation_rate", "port",
     "set_points", "keep_out", "overshoot", "plane_turn", "switches", "switch_distances",
     "set_point_time", "terminal_cone_time", "reference_moves", "time_limit",
-    "burn_time", "mean_motion",
+    "burn_time", "mean_motion", "feedback_bound", "cone_margin", "speed_margin",
 )  # fmt: skip
 
 
@@ -126,6 +131,11 @@ class Law:
     burn_time
         In linear motion, how long a thruster burns for a change of velocity, s per m/s; zero: no
         time, by impulses. The law itself always plans impulses.
+    feedback
+        Of the docking phase's tube, (3, 6), see `tube`; ``None``: no tube.
+    feedback_bound, cone_margin, speed_margin
+        What the feedback has of the control, m/s, beside the bound of the nominal one; and what
+        the docking phase's cone and speed are tightened by, m and m/s.
     """
 
     mean_motion: float
@@ -159,6 +169,10 @@ class Law:
     delay_known: bool = False
     time_limit: float = 12000.0
     burn_time: float = 0.0
+    feedback: np.ndarray | None = None
+    feedback_bound: float = 0.0
+    cone_margin: float = 0.0
+    speed_margin: float = 0.0
 
     def with_(self, **changes: Any) -> "Law":
         """The same law with some attributes changed."""
@@ -230,6 +244,8 @@ def _fill(record: Any, law: Law) -> None:
         record["norm_control_weights"] = cost * control
         record["penalties"][0] = law.penalties[0] * scale[0] * cost
         record["hard_weights"][0] = HARD_WEIGHT * law.horizons[0]
+    if law.feedback is not None:
+        record["has_tube"], record["feedback"] = 1, law.feedback
     record["plane_rate"] = law.plane_rate * law.mean_motion
     for name in AS_THEY_ARE:
         record[name] = getattr(law, name)

@@ -203,6 +203,7 @@ def _write_corridor(law, phase, state, time, program):
     """
     hard, length = law.hard_weights[phase], law.scales[phase, 0]
     tip = law.port if phase == DOCKING else 0.0
+    margin = law.cone_margin if phase == DOCKING else 0.0
     weight = hard if phase == DOCKING else law.penalties[phase]
     axis, faces = np.empty(3), np.empty((4, 3))
     outside = False
@@ -214,7 +215,8 @@ def _write_corridor(law, phase, state, time, program):
             offset = 0.0
             for k in range(3):
                 offset += faces[face, k] * axis[k]
-            _set_plane(program, i, face, 1.0, faces[face], tip * offset / length, weight)
+            limit = (tip * offset - margin) / length
+            _set_plane(program, i, face, 1.0, faces[face], limit, weight)
         program.plane_count[i] = 4
         if phase == APPROACH:
             program.plane_count[i] = 5
@@ -232,12 +234,13 @@ def _write_corridor(law, phase, state, time, program):
 def _write_speed_bound(law, state, program):
     """Write the bounds on the velocity while docking; return whether the start violates one."""
     speed, outside = law.scales[DOCKING, 3], False
+    bound = law.speed_bound - law.speed_margin
     for b in range(BOUNDS):
         program.components[b] = 3 + b // 2
         program.signs[b] = 1.0 - 2.0 * (b % 2)
         for i in range(1, law.horizons[DOCKING] + 1):
-            program.bounds[i, b] = law.speed_bound / speed
+            program.bounds[i, b] = bound / speed
             program.bound_weights[i, b] = law.hard_weights[DOCKING]
-        excess = program.signs[b] * state[3 + b // 2] - law.speed_bound
+        excess = program.signs[b] * state[3 + b // 2] - bound
         outside = outside or excess > START_TOLERANCE * speed
     return outside

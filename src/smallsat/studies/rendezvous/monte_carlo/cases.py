@@ -15,6 +15,7 @@ from smallsat.studies.rendezvous.configuration import MonteCarlo
 from smallsat.studies.rendezvous.guidance.law import Law, in_phase
 from smallsat.studies.rendezvous.model.environment import orbit_radius
 from smallsat.studies.rendezvous.model.prediction_j2 import schweighart_sedwick
+from smallsat.studies.rendezvous.monte_carlo.tubes import flown_tube, path_law
 from smallsat.studies.rendezvous.parameters import STUDY_PHASES as PHASES
 from smallsat.studies.rendezvous.parameters import law
 from smallsat.studies.rendezvous.simulation.disturbances import disturbed_motion
@@ -23,6 +24,7 @@ from smallsat.studies.rendezvous.simulation.motion import NonlinearMotion
 # Names that others look for.
 BASELINE, NO_SET_POINT, LP = "baseline", "no set point", "LP"
 AS_DOCUMENTED, UNDISTURBED = "as documented", "undisturbed"
+PATH, TUBE = "nominal path and feedback", "tube"
 NO_PENALTY, NO_ZONE, NO_REFERENCE = "no terminal penalty", "no zone", "no reference in approach"
 NO_SET_POINT_NO_ZONE = "no set point, no zone"
 LP_DISTURBED, LP_UNDISTURBED = "LP, disturbed", "LP, undisturbed"
@@ -77,6 +79,11 @@ def delay_case(delay: float, known: bool) -> str:
 def near_errors_case(share: float) -> str:
     """Name of a case whose measurement errors fall with the range, to a share near the port."""
     return f"errors {share:g} times as large near the port"
+
+
+def near_errors_tube_case(share: float) -> str:
+    """Name of that case with the tube that fits its errors."""
+    return f"{TUBE}, {near_errors_case(share)}"
 
 
 def prediction_case(model: str, inclination: float) -> str:
@@ -200,10 +207,20 @@ def _robustness(section: MonteCarlo) -> list[Case]:
             for share in table.near_error_shares
         },
     }
-    return [
+    found = [
         Case(name, law, motion=disturbed_motion(section, law, **changes), runs=runs)
         for name, (runs, changes) in variants.items()
     ]
+    best = min(table.near_error_shares)
+    laws = {
+        PATH: (path_law(section, law), 1.0),
+        TUBE: (flown_tube(section, law, 1.0), 1.0),
+        near_errors_tube_case(best): (flown_tube(section, law, best), best),
+    }
+    for name, (other, share) in laws.items():
+        motion = disturbed_motion(section, law, near_error_share=share)
+        found.append(Case(name, other, motion=motion, runs=few))
+    return found
 
 
 def _passages(section: MonteCarlo) -> list[Case]:

@@ -20,6 +20,7 @@ from smallsat.studies.rendezvous.guidance.controller import (
     port_distance,
 )
 from smallsat.studies.rendezvous.guidance.law import DOCKING, RENDEZVOUS, Law, settings
+from smallsat.studies.rendezvous.guidance.tube import hold
 from smallsat.studies.rendezvous.simulation.motion import (
     NonlinearMotion,
     apply_transition,
@@ -254,6 +255,7 @@ def _simulate(law, start, phases, motion, generator, memory, m, found):
     """
     pair = begin(motion, start)
     estimate, covariance, expected = np.empty(6), np.empty((6, 6)), np.empty(6)
+    nominal = np.empty(6)
     command, applied = np.zeros(3), np.zeros(3)
     burn, on_times, idle = np.zeros(3), np.zeros(3), np.zeros(3)
     w, v = first_error(motion, generator)
@@ -263,13 +265,19 @@ def _simulate(law, start, phases, motion, generator, memory, m, found):
     for phase in range(phases[0], phases[1] + 1):
         duration, delay = law.sample_times[phase], law.delays[phase]
         memory.remaining[0] = 0
+        within = False
         while True:
             _pass_limits(found.passages, m, time + duration, spent)
             if time + duration > law.time_limit:
                 return
             copy(estimate, expected)
             apply_transition(law.predictions_before[phase], expected)
-            control = next_control(law, phase, expected, time, memory, command)
+            if not within:
+                copy(expected, nominal)
+            control = next_control(law, phase, nominal, time, memory, command)
+            if law.has_tube and phase == DOCKING:
+                hold(law, expected, nominal, command)
+                within = True
             if phase == RENDEZVOUS:
                 found.closest[m] = min(found.closest[m], np.linalg.norm(state[:3]))
             if found.records.time.shape[1] > 0:
