@@ -16,6 +16,7 @@ from smallsat.studies.rendezvous.evidence.monte_carlo_observations import (
 from smallsat.studies.rendezvous.evidence.sensitivity_claims import proportion_interval
 from smallsat.studies.rendezvous.monte_carlo.cases import (
     AS_DOCUMENTED,
+    TUBE,
     UNDISTURBED,
     near_errors_case,
 )
@@ -179,19 +180,20 @@ def disturbed(case, runs, docking_time, docking_delta_v, completed=1.0):
 @pytest.mark.parametrize(
     ("noisy", "better", "share", "outcomes"),
     [
-        ((1500.0, 4.0), (320.0, 0.3), 1.0, ("holds", "holds", "holds", "holds")),
-        ((330.0, 0.25), (1500.0, 4.0), 0.5, (None, "fails", "fails", "fails")),
+        ((1500.0, 4.0), (320.0, 0.3), 1.0, ("holds", "holds", "holds", "holds", "holds")),
+        ((330.0, 0.25), (1500.0, 4.0), 0.5, (None, "fails", "fails", "fails", "fails")),
     ],
 )
 def test_robustness_claims(judge, section, tmp_path, noisy, better, share, outcomes):
-    """A chaser that bounces and sensors that help; then one that does not, and ones that hurt."""
+    """A chaser that bounces, sensors and a tube that help; then one that does not, and all hurt."""
     rows = [
         disturbed(UNDISTURBED, 1, 300.0, 0.2),
         disturbed(AS_DOCUMENTED, 5, *noisy, share),
         disturbed(near_errors_case(0.1), 5, *better),
+        disturbed(TUBE, 5, *better),
     ]
     write(tmp_path, robustness=synthetic.pd.concat(rows, ignore_index=True))
-    names = ("increase-docking", "bounce", "robust", "near-sensors")
+    names = ("increase-docking", "bounce", "robust", "near-sensors", "tube-robust")
     found = judge(section, tmp_path, names)
     for name, outcome in zip(names, outcomes, strict=True):
         assert outcome is None or found[name] == outcome, name
