@@ -128,6 +128,13 @@ for group, starts in GROUPS.items():
 
 step(
     "rendezvous",
+    "tube",
+    reads=["studies/disturbed-states.parquet"],
+    makes=[f"studies/tube-{name}" for name in ("sizes.csv", "constraints.csv", "ways.parquet")],
+    takes=MonteCarlo,
+)
+step(
+    "rendezvous",
     "summaries",
     reads=GROUP_TABLES,
     makes=[
