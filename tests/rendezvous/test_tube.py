@@ -12,7 +12,7 @@ from smallsat.studies.rendezvous.guidance.tube import (
     deviation,
     hold,
     invariant_margins,
-    reaching_scale,
+    room,
     stationary_margins,
     tip_distance,
     tube_law,
@@ -142,7 +142,7 @@ def test_a_tube_keeps_the_constraints_that_the_law_alone_does_not(law):
 
 
 def test_the_flown_tube_lets_the_chaser_dock(section):
-    """Its cone begins at the share of the docking distance, or it is whole; as printed it is not.
+    """Its cone begins at the share of the docking distance; the whole tube's would not.
 
     Margins of a measurement alone go with its deviation.
     """
@@ -150,12 +150,13 @@ def test_the_flown_tube_lets_the_chaser_dock(section):
     margins = flown_margins(section, law, 1.0)
     assert tip_distance(law, margins) <= share * law.switch_distances[DOCKING] * (1.0 + 1e-12)
     assert margins.speed < law.speed_bound and margins.control < law.control_bounds[DOCKING]
-    assert reaching_scale(law, margins.times(0.1), share) == 1.0
+    assert margins.within(room(law, share)) == margins
+    assert margins.scale(room(law, share)) == pytest.approx(1.0)
     table = sizes(section, law)
     assert (table.loc[table["source"] == "both", "scale"] < 1.0).all()
     for _, rows in table[table["source"] == "measurement"].groupby("tube"):
-        room = rows.set_index("error_share")["tip_m"]
-        np.testing.assert_allclose(room / room[1.0], room.index, rtol=1e-9)
+        tips = rows.set_index("error_share")["tip_m"]
+        np.testing.assert_allclose(tips / tips[1.0], tips.index, rtol=1e-9)
 
 
 def test_docking_flights_are_those_of_the_cases(section):

@@ -252,7 +252,7 @@ class Filter(Part):
 
 
 class Tube(Part):
-    """Of robust MPC: bounds of disturbances in standard deviations, and what must be left.
+    """Of robust MPC: its width in standard deviations, and the most that it may take.
 
     The share is that of the docking distance, and of the bounds on speed and control.
     """

@@ -81,7 +81,7 @@ def tube(ways: pd.DataFrame, sizes: pd.DataFrame, distances: Mapping[str, float]
     left.axhline(next(iter(distances.values())), color=BLACK, lw=0.8, ls=":")
     left.set(yscale="log", xlabel="time in docking [min]", ylabel="distance from the port [m]")
     left.set_xlim(0, None)
-    left.legend(fontsize=7)
+    left.legend(fontsize=7, ncols=2, loc="lower right", bbox_to_anchor=(1.0, 1.0))
 
     measured = sizes[sizes["source"] == "measurement"]
     thrust = sizes[(sizes["source"] == "thrust") & (sizes["error_share"] == 1.0)]
@@ -100,10 +100,10 @@ def tube(ways: pd.DataFrame, sizes: pd.DataFrame, distances: Mapping[str, float]
         right.axvline(distance, color=BLACK, lw=0.8, ls=":")
         right.annotate(word, (distance, 0.02), xycoords=("data", "axes fraction"), fontsize=6,
                        rotation=90, ha="right", va="bottom")  # fmt: skip
-    right.set(xscale="log", xlabel="tightened cone begins at [m] from the port")
+    right.set(xscale="log", xlabel="tightened cone's tip from the port [m]")
     right.set_yticks(list(lines.values()), list(lines))
     right.set_ylim(min(lines.values()) - 0.6, 0.6)
-    right.legend(fontsize=7, loc="upper right")
+    right.legend(fontsize=7, ncols=2, loc="lower right", bbox_to_anchor=(1.0, 1.0))
     right.grid(axis="y", visible=False)
     table = pd.concat([shown.assign(panel="ways"), drawn.assign(panel="room")], ignore_index=True)
     return figure, table

@@ -50,9 +50,13 @@ class Margins(NamedTuple):
     speed: float
     control: float
 
-    def times(self, factor: float) -> "Margins":
-        """All of them times a factor, as for a tube of that scale."""
-        return Margins(*(factor * one for one in self))
+    def within(self, room: "Margins") -> "Margins":
+        """Each of them, or what room there is for it."""
+        return Margins(*map(min, self, room))
+
+    def scale(self, room: "Margins") -> float:
+        """How many times these margins there is room for, all at one scale."""
+        return min(there / one for one, there in zip(self, room, strict=True))
 
 
 class Deviation(NamedTuple):
@@ -123,16 +127,17 @@ def tip_distance(law: Law, margins: Margins) -> float:
     return margins.cone / float(np.sin(law.cone_angles[DOCKING]))
 
 
-def reaching_scale(law: Law, margins: Margins, share: float) -> float:
-    """Largest scale, at most 1, at which a tube lets the nominal state come near the port.
+def room(law: Law, share: float) -> Margins:
+    """The most that constraints may be tightened by for the law to dock still.
 
-    Near is that share of the docking distance; the tightened speed and control keep the share of
-    what they were.
+    The cone begins at that share of the docking distance from the port, and the nominal speed and
+    control are cut by that share at most.
     """
-    distance = share * law.switch_distances[DOCKING] / tip_distance(law, margins)
-    speed = share * law.speed_bound / margins.speed
-    control = share * law.control_bounds[DOCKING] / margins.control
-    return min(1.0, distance, speed, control)
+    return Margins(
+        share * law.switch_distances[DOCKING] * float(np.sin(law.cone_angles[DOCKING])),
+        share * law.speed_bound,
+        share * law.control_bounds[DOCKING],
+    )
 
 
 def tube_law(law: Law, gain: np.ndarray, margins: Margins) -> Law:

@@ -10,7 +10,7 @@ from smallsat.studies.rendezvous.guidance.tube import (
     Margins,
     deviation,
     invariant_margins,
-    reaching_scale,
+    room,
     stationary_margins,
     tip_distance,
     tube_law,
@@ -37,9 +37,9 @@ def disturbances(section: MonteCarlo, law: Law, near_error_share: float) -> Dist
 
 
 def flown_margins(section: MonteCarlo, law: Law, near_error_share: float) -> Margins:
-    """The invariant tube of all disturbances, at the largest scale that lets the chaser dock."""
-    whole = invariant_margins(law, disturbances(section, law, near_error_share))
-    return whole.times(reaching_scale(law, whole, section.studies.robustness.tube.share))
+    """The stationary tube of all disturbances, cut to what room each constraint has for it."""
+    whole = stationary_margins(law, disturbances(section, law, near_error_share))
+    return whole.within(room(law, section.studies.robustness.tube.share))
 
 
 def flown_tube(section: MonteCarlo, law: Law, near_error_share: float) -> Law:
@@ -61,8 +61,8 @@ def sizes(section: MonteCarlo, law: Law) -> pd.DataFrame:
     -------
     pandas.DataFrame
         ``error_share``, ``source``, ``tube``; margins ``cone_m``, ``speed_m_s``, ``control_m_s``;
-        how far from the port the tightened cone begins, ``tip_m``; and ``scale``, at which the
-        tube would let the chaser dock.
+        how far from the port the tightened cone begins, ``tip_m``; and ``scale``, how many times
+        the tube there is room for.
     """
     robustness = section.studies.robustness
     rows = []
@@ -85,7 +85,7 @@ def sizes(section: MonteCarlo, law: Law) -> pd.DataFrame:
                         "speed_m_s": margins.speed,
                         "control_m_s": margins.control,
                         "tip_m": tip_distance(law, margins),
-                        "scale": reaching_scale(law, margins, robustness.tube.share),
+                        "scale": margins.scale(room(law, robustness.tube.share)),
                     }
                 )
     return pd.DataFrame(rows)
