@@ -94,7 +94,7 @@ for number in ENSEMBLE:
 
 step("rendezvous", "solvers", makes=["solvers.csv"], clock=["solver-seconds.csv"])
 step("rendezvous", "constraints", makes=["constraints.csv"])
-step("rendezvous", "elliptic", makes=["elliptic.csv"])
+step("rendezvous", "elliptic", makes=["elliptic.csv", "elliptic-horizons.csv"])
 step(
     "rendezvous",
     "initial_states",

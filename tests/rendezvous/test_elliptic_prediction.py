@@ -5,7 +5,13 @@ import pytest
 
 from smallsat.dynamics.environment import egm96
 from smallsat.dynamics.orbits.kepler_orbits import Elements, Gravity, propagate_orbit, state_of
-from smallsat.studies.rendezvous.methods.elliptic_prediction import MODELS, errors, motions
+from smallsat.studies.rendezvous.methods.elliptic_prediction import (
+    MODELS,
+    at_horizons,
+    errors,
+    look_aheads,
+    motions,
+)
 from smallsat.studies.rendezvous.model.environment import orbit_radius
 from smallsat.studies.rendezvous.model.truth import pair_from_relative, relative_state
 
@@ -30,7 +36,7 @@ def test_motion_is_that_of_two_bodies(small, chaser, e):
     tilt, node = np.radians([orbit.inclination_deg, orbit.raan_deg])
     target = np.concatenate(state_of(Elements(radius / (1 - e), e, tilt, node, 0.0, 0.0), egm96.MU))
     pair = pair_from_relative(target, chaser)
-    times = np.array([0.0, *small.elliptic.look_ahead_s])
+    times = np.array([0.0, *look_aheads(small)])
     alone = np.array([propagate_orbit(body[:3], body[3:], field, times) for body in pair])
     expected = [relative_state(np.ascontiguousarray(alone[:, k])) for k in range(1, len(times))]
     found = motions(small, e, 0.0, chaser[None])[:, 0]
@@ -40,7 +46,7 @@ def test_motion_is_that_of_two_bodies(small, chaser, e):
 def test_models_agree_on_a_circle_and_there_alone(small):
     """To 1e-9 of a metre at e = 0; at 0.1 the elliptic one is a hundred times as good at 900 s."""
     table = errors(small)
-    assert len(table) == 3 * 3 * len(MODELS)
+    assert len(table) == 3 * len(look_aheads(small)) * len(MODELS)
     assert (table["low_m"] <= table["median_m"]).all()
     assert (table["median_m"] <= table["high_m"]).all()
     median = table.pivot(index=["eccentricity", "look_ahead_s"], columns="model", values="median_m")
@@ -48,3 +54,6 @@ def test_models_agree_on_a_circle_and_there_alone(small):
     for model in circular:
         np.testing.assert_allclose(median.loc[0.0, model], median.loc[0.0, elliptic], atol=1e-9)
         assert median.loc[(0.1, 900.0), model] > 100.0 * median.loc[(0.1, 900.0), elliptic]
+    horizons = at_horizons(small, table).set_index(["eccentricity", "model"])
+    assert len(horizons) == 3 * len(MODELS)
+    assert horizons.loc[(0.1, elliptic), "far_m"] == median.loc[(0.1, 900.0), elliptic]

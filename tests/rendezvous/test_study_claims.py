@@ -181,11 +181,12 @@ def disturbed(case, runs, docking_time, docking_delta_v, completed=1.0):
     ("noisy", "better", "share", "outcomes"),
     [
         ((1500.0, 4.0), (320.0, 0.3), 1.0, ("holds", "holds", "holds", "holds", "holds")),
-        ((330.0, 0.25), (1500.0, 4.0), 0.5, (None, "fails", "fails", "fails", "fails")),
+        ((330.0, 0.25), (1500.0, 4.0), 0.5, (None, "fails", "fails", "undecided", "fails")),
+        ((1500.0, 4.0), (1600.0, 5.0), 1.0, ("holds", "holds", "holds", "fails", None)),
     ],
 )
 def test_robustness_claims(judge, section, tmp_path, noisy, better, share, outcomes):
-    """A chaser that bounces, sensors and a tube that help; then one that does not, and all hurt."""
+    """A chaser that bounces, with sensors and a tube that help or hurt; and one that does not."""
     rows = [
         disturbed(UNDISTURBED, 1, 300.0, 0.2),
         disturbed(AS_DOCUMENTED, 5, *noisy, share),

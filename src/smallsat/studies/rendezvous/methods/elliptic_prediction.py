@@ -33,6 +33,25 @@ MODELS: dict[str, Callable[[float, float, float, float], np.ndarray]] = {
 QUANTILES = {"low": 0.05, "median": 0.5, "high": 0.95}
 
 
+def look_aheads(section: Configuration) -> tuple[float, ...]:
+    """Times ahead, s, that errors are given at: the configured ones and the phases' horizons."""
+    return tuple(sorted({*section.elliptic.look_ahead_s, *_horizons(section).values()}))
+
+
+def _horizons(section: Configuration) -> dict[str, float]:
+    return {name: phase.horizon * phase.sample_time_s for name, phase in section.phases}
+
+
+def at_horizons(section: Configuration, table: pd.DataFrame) -> pd.DataFrame:
+    """Median errors of `errors` over each phase's horizon: ``far_m``, ``mid_m``, ``final_m``."""
+    rows = table.set_index(["eccentricity", "model"], drop=True)
+    columns = {
+        f"{name}_m": rows.loc[rows["look_ahead_s"] == horizon, "median_m"]
+        for name, horizon in _horizons(section).items()
+    }
+    return pd.DataFrame(columns).reset_index()
+
+
 def errors(section: Configuration) -> pd.DataFrame:
     """Errors of the predicted position over initial states and places of the orbit.
 
@@ -43,8 +62,7 @@ def errors(section: Configuration) -> pd.DataFrame:
         ``high_m``, the 5, 50 and 95 % quantiles of the distance between predicted and true
         position, m.
     """
-    settings = section.elliptic
-    times = settings.look_ahead_s
+    settings, times = section.elliptic, look_aheads(section)
     table = states_table(section, settings.states, section.studies.seed)
     states = table[STATE].to_numpy()
     anomalies = 2.0 * np.pi * np.arange(settings.anomalies) / settings.anomalies
@@ -81,7 +99,7 @@ def motions(section: Configuration, e: float, anomaly: float, states: np.ndarray
     idle, found = np.zeros(3), []
     for state in states:
         pair, passed = pair_from_relative(target, state), []
-        for duration in np.diff(section.elliptic.look_ahead_s, prepend=0.0):
+        for duration in np.diff(look_aheads(section), prepend=0.0):
             advance(pair, 0.0, float(duration), idle, idle, field)
             passed.append(relative_state(pair))
         found.append(passed)

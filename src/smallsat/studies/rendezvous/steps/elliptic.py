@@ -7,4 +7,8 @@ from smallsat.studies.rendezvous.methods import elliptic_prediction
 
 def run(step: Step[Configuration]) -> Tables:
     """Compare them with two-body motion."""
-    return {"elliptic.csv": elliptic_prediction.errors(step.section)}
+    found = elliptic_prediction.errors(step.section)
+    return {
+        "elliptic.csv": found,
+        "elliptic-horizons.csv": elliptic_prediction.at_horizons(step.section, found),
+    }
