@@ -152,6 +152,7 @@ def test_the_flown_tube_lets_the_chaser_dock(section):
     assert margins.speed < law.speed_bound and margins.control < law.control_bounds[DOCKING]
     assert margins.within(room(law, share)) == margins
     assert margins.scale(room(law, share)) == pytest.approx(1.0)
+    assert Margins(0.0, 0.0, 0.0).scale(room(law, share)) == np.inf
     table = sizes(section, law)
     assert (table.loc[table["source"] == "both", "scale"] < 1.0).all()
     for _, rows in table[table["source"] == "measurement"].groupby("tube"):

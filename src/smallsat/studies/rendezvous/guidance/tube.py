@@ -55,8 +55,9 @@ class Margins(NamedTuple):
         return Margins(*map(min, self, room))
 
     def scale(self, room: "Margins") -> float:
-        """How many times these margins there is room for, all at one scale."""
-        return min(there / one for one, there in zip(self, room, strict=True))
+        """How many times these margins there is room for, at one scale; infinity without any."""
+        pairs = zip(self, room, strict=True)
+        return min((there / one for one, there in pairs if one > 0.0), default=float("inf"))
 
 
 class Deviation(NamedTuple):
