@@ -100,7 +100,11 @@ def invariant_margins(law: Law, disturbances: Disturbances) -> Margins:
 
 
 def stationary_margins(law: Law, disturbances: Disturbances) -> Margins:
-    """Margins of one standard deviation of what independent disturbances settle to."""
+    """Margins of one standard deviation of what disturbances settle to.
+
+    ``disturbances`` are standard deviations, of errors that are independent from step to step. The
+    thrust's is not: it lasts, and with it the deviation, up to that of the invariant set.
+    """
     moved = deviation(law, disturbances)
     rows = _rows(law, moved.gain)
     covariance = solve_discrete_lyapunov(moved.transition, moved.inputs @ moved.inputs.T)
