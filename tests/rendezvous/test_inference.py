@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from smallsat.studies.rendezvous.inference import posterior
-from smallsat.studies.rendezvous.inference.axes import axes
+from smallsat.studies.rendezvous.inference.axes import axes, missed_axes
 from smallsat.studies.rendezvous.inference.misfit import (
     WORST_SHARE,
     misfits,
@@ -163,6 +163,8 @@ def test_data_within_the_printed_axes_miss_nothing(section, starts, ledger):
     # No start: no data, the worst everywhere.
     none = axes(section, starts[:0], printed)
     assert none["residual 2-norm"].to_numpy() == pytest.approx(WORST_SHARE)
+    # A set whose axes are not looked at is no better than that.
+    assert (none["residual 2-norm"] ** 2).sum() == pytest.approx(missed_axes(printed))
 
 
 def test_a_manoeuvre_that_does_not_end_is_a_bounded_miss(section, flown, ledger):

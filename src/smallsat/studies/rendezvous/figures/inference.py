@@ -2,12 +2,15 @@
 
 import numpy as np
 import pandas as pd
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.pyplot import subplots
 
 from smallsat.drawing.figure import Drawing
+from smallsat.drawing.style import BLUE, CYCLE, VERMILION, WIDTH
 from smallsat.studies.rendezvous.configuration import Cases
-from smallsat.studies.rendezvous.inference.parameter_set import FITTED, KINDS
+from smallsat.studies.rendezvous.inference.misfit import KINDS
+from smallsat.studies.rendezvous.inference.parameter_set import FITTED
 
 TITLES = {
     "keep_out_m": "$r_1$ [m]",
@@ -22,31 +25,48 @@ TITLES = {
     "rotation_rate_rad_s": r"$\omega_z$ [rad/s]",
 }
 
+# Readings whose names are no words.
+QUESTIONS = {
+    "delta_v": "sum of delta-v",
+    "r_bar": "R-bar",
+    "reference_moves": "reference has a speed",
+}
+KIND_COLOURS = dict(zip(KINDS, CYCLE, strict=False))
+# Columns of results in words.
+WORDS = {"_m_s": "", "_min": "", "delta_v": "delta-v"}
+
 
 def residuals(table: pd.DataFrame) -> Drawing:
     """What the configured set misses of everything that the document prints, in assumed errors."""
-    figure, axes = subplots(figsize=(6.3, 7.2))
-    lines = np.arange(len(table))[::-1]
-    colours = [f"C{KINDS.index(kind)}" for kind in table["kind"]]
-    axes.barh(lines, table["residual"], color=colours, height=0.65)
-    axes.set_yticks(lines, table["cell"], fontsize=6)
-    for at, row in zip(lines, table.to_dict("records"), strict=True):
-        text = f"{row['printed']:g} / {row['computed']:.4g}"
-        axes.text(1.01, at, text, transform=axes.get_yaxis_transform(), fontsize=6, va="center")
-    axes.axvline(0.0, color="black", lw=0.8)
-    for edge in (-1.0, 1.0):
-        axes.axvline(edge, color="0.5", lw=0.7, ls=":")
-    handles = [Patch(color=f"C{place}", label=kind) for place, kind in enumerate(KINDS)]
-    axes.legend(handles=handles, fontsize=6)
-    axes.set_ylim(-1, len(table))
-    axes.set_xlabel("(computed - printed) / assumed error; to the right: printed / computed")
-    axes.grid(visible=False, axis="y")
+    columns = table[table["kind"] == "cell"], table[table["kind"] != "cell"]
+    figure, panels = subplots(1, 2, figsize=(WIDTH, 4.45), sharex=True)
+    top = max(map(len, columns)) - 1
+    for axes, part in zip(panels, columns, strict=True):
+        lines = top - np.arange(len(part))
+        axes.barh(lines, part["residual"], color=part["kind"].map(KIND_COLOURS), height=0.65)
+        axes.set_yticks(lines, part["cell"].replace(WORDS, regex=True), fontsize=6.5)
+        for at, row in zip(lines, part.to_dict("records"), strict=True):
+            text = f"{row['printed']:g} / {row['computed']:.4g}"
+            axes.text(
+                1.02, at, text, transform=axes.get_yaxis_transform(), fontsize=6.5, va="center"
+            )
+        axes.axvline(0.0, color="black", lw=0.8)
+        for edge in (-1.0, 1.0):
+            axes.axvline(edge, color="0.5", lw=0.7, ls=":")
+        axes.set_ylim(-0.7, top + 0.7)
+        axes.tick_params(axis="x", labelsize=7)
+        axes.grid(visible=False, axis="y")
+    handles = [Patch(color=colour, label=kind) for kind, colour in KIND_COLOURS.items()]
+    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles), fontsize=7)
+    figure.supxlabel(
+        "(computed - printed) / assumed error; to the right: printed / computed", fontsize=8
+    )
     return figure, table
 
 
 def profiles(section: Cases, evaluated: pd.DataFrame, table: pd.DataFrame) -> Drawing:
     """Misfit of all evaluated sets over each parameter, and its lower envelope."""
-    figure, panels = subplots(3, 4, figsize=(6.3, 4.8), sharey=True)
+    figure, panels = subplots(3, 4, figsize=(WIDTH, 4.45), sharey=True)
     limit = section.inference.acceptable * evaluated["misfit"].min()
     rest = panels.flat[len(FITTED) :]
     for name, axes in zip(FITTED, panels.flat, strict=False):
@@ -63,27 +83,39 @@ def profiles(section: Cases, evaluated: pd.DataFrame, table: pd.DataFrame) -> Dr
         axes.set_ylabel("misfit", fontsize=7)
     for axes in rest:
         axes.set_axis_off()
-        axes.plot([], [], ".", color="0.75", label="evaluated set")
-        axes.plot([], [], "o-", color="C0", ms=2.5, label="least in a bin")
-        axes.plot([], [], color="C1", ls="--", label="acceptable below")
-        axes.plot([], [], color="C2", label="configured")
-        axes.legend(loc="center", fontsize=7)
+    handles = [
+        Line2D([], [], marker=".", ls="", color="0.75", label="evaluated set"),
+        Line2D([], [], marker="o", color="C0", ms=2.5, label="least in a bin"),
+        Line2D([], [], color="C1", ls="--", label="acceptable below"),
+        Line2D([], [], color="C2", label="configured"),
+    ]
+    rest[0].legend(handles=handles, loc="center", fontsize=8)
     return figure, evaluated[[*FITTED, "misfit"]]
 
 
-def readings(table: pd.DataFrame) -> Drawing:
+def readings(section: Cases, table: pd.DataFrame) -> Drawing:
     """Least misfit that each option of each reading allows, and what is missed in it."""
-    figure, axes = subplots(figsize=(6.0, 4.4))
+    figure, axes = subplots(figsize=(WIDTH, 4.0))
     lines = np.arange(len(table))[::-1]
     questions = list(dict.fromkeys(table["question"]))
     for at, row in zip(lines, table.to_dict("records"), strict=True):
-        axes.plot(row["misfit"], at, "o", color=f"C{questions.index(row['question']) % 2}", ms=4)
+        if questions.index(row["question"]) % 2:
+            axes.axhspan(at - 0.5, at + 0.5, color="0.94", lw=0, zorder=0)
         parts = ", ".join(f"{kind} {row[kind]:.0f}" for kind in KINDS)
-        axes.text(1.01, at, parts, transform=axes.get_yaxis_transform(), fontsize=6, va="center")
+        axes.text(1.01, at, parts, transform=axes.get_yaxis_transform(), fontsize=6.5, va="center")
+    axes.plot(table["misfit"], lines, "o", color=BLUE, ms=4)
+    limit = section.inference.acceptable * table["misfit"].min()
+    axes.axvline(limit, color=VERMILION, lw=0.9, ls="--")
+    axes.text(
+        limit, len(table) - 0.4, " acceptable below", color=VERMILION, fontsize=7, va="bottom"
+    )
     labels = [
-        f"{row['question'].replace('_', ' ')}: {row['reading']}" for row in table.to_dict("records")
+        f"{QUESTIONS.get(row['question'], row['question'].replace('_', ' '))}: {row['reading']}"
+        for row in table.to_dict("records")
     ]
     axes.set_yticks(lines, labels, fontsize=7)
     axes.set_xlim(0.0, None)
+    axes.set_ylim(-0.6, len(table) - 0.4)
+    axes.grid(visible=False, axis="y")
     axes.set_xlabel("least misfit found, whatever the other readings are; to the right: its parts")
     return figure, table

@@ -28,6 +28,8 @@ from smallsat.studies.rendezvous.model.prediction import transition
 from smallsat.studies.rendezvous.parameters import law as law_of
 
 EARTH_RADIUS_M = 6378137.0
+# Where the Earth of Figure 2.1 is cut off, km from its centre.
+FLOOR_KM = 5500.0
 # Planes of a horizon that are drawn, counted from the chaser.
 DRAWN_PLANES = 7
 
@@ -50,20 +52,20 @@ def predicted(
 
 
 def frame(section: Flight) -> Drawing:
-    """Figure 2.1: the target's frame on its orbit, and the chaser at the start of the cases."""
+    """Figure 2.1: the target's frame on its orbit, to scale but for the frame's axes."""
     law = law_of(section, "v-bar")
     radius = orbit_radius(law.mean_motion)
     earth = EARTH_RADIUS_M
-    figure, axes = subplots(figsize=(4.6, 4.0))
+    figure, axes = subplots(figsize=(4.6, 2.2))
     turn = np.radians(np.linspace(55.0, 125.0, 141))
     for size, colour in ((earth, "0.35"), (radius, "C0")):
         axes.plot(size / KM * np.cos(turn), size / KM * np.sin(turn), color=colour, lw=1.2)
     axes.fill_between(
-        earth / KM * np.cos(turn), earth / KM * np.sin(turn), 3200.0, color="#dfe7ee", lw=0
+        earth / KM * np.cos(turn), earth / KM * np.sin(turn), FLOOR_KM, color="#dfe7ee", lw=0
     )
     place = np.array([0.0, radius / KM])
-    axes.plot([0.0, place[0]], [3200.0, place[1]], color="0.5", lw=0.7, ls="--")
-    length = 1100.0
+    axes.plot([0.0, place[0]], [FLOOR_KM, place[1]], color="0.5", lw=0.7, ls="--")
+    length = 750.0
     # Counter-clockwise motion as seen from the orbit normal: the velocity points to the left.
     rows = []
     for name, direction, use in (
@@ -75,22 +77,23 @@ def frame(section: Flight) -> Drawing:
             "", tuple(tip), tuple(place), arrowprops={"arrowstyle": "-|>", "color": "C1", "lw": 1.6}
         )
         rows.append({"item": name, "right": direction[0], "up": direction[1], "use": use})
-    axes.text(80.0, place[1] + 0.85 * length, r"$\hat{x}$ (R-bar)", color="C1")
-    axes.text(-1.0 * length, place[1] + 130.0, r"$\hat{y}$ (V-bar)", color="C1", ha="center")
+    axes.text(80.0, place[1] + 0.8 * length, r"$\hat{x}$ (R-bar)", color="C1")
+    axes.text(-1.0 * length, place[1] + 100.0, r"$\hat{y}$ (V-bar)", color="C1", ha="center")
     axes.plot(*place, "o", ms=11, mfc="white", mec="C1", zorder=4)
     axes.plot(*place, "o", ms=3.5, color="C1", zorder=5)
     axes.text(
-        place[0] + 120.0,
-        place[1] - 900.0,
+        place[0] + 90.0,
+        earth / KM - 150.0,
         r"$\hat{z}$ out of the page," "\norbit normal",
         color="C1",
+        va="top",
     )
-    axes.text(-2050.0, 5350.0, "Earth", color="0.35")
+    axes.text(-1500.0, 5750.0, "Earth", color="0.35")
     height = (radius - EARTH_RADIUS_M) / KM
     axes.text(
-        1500.0, 6900.0, f"target's orbit,\n{height:.0f} km high (inferred)", color="C0", fontsize=8
+        1050.0, 6850.0, f"target's orbit,\n{height:.0f} km high (inferred)", color="C0", fontsize=8
     )
-    axes.set(xlim=(-3300, 3300), ylim=(4900, 8300), aspect="equal")
+    axes.set(xlim=(-2600, 2600), ylim=(FLOOR_KM, 7700), aspect="equal")
     axes.set_axis_off()
     rows.append({"item": "z", "right": 0.0, "up": 0.0, "use": "orbit normal, out of the page"})
     rows.append({"item": "orbit radius [km]", "right": 0.0, "up": radius / KM, "use": "inferred"})
@@ -118,11 +121,11 @@ def horizon(section: Flight, flights: pd.DataFrame) -> Drawing:
     top.plot(later["time_s"] - now["time_s"], later["y_m"], color="C1", lw=1.0, label="then flown")
     top.axhline(law.overshoot, color="0.5", lw=0.8, ls=":")
     top.text(
-        0.99,
-        law.overshoot + 1.5,
+        0.01,
+        law.overshoot,
         "$r_2$ (inferred)",
         transform=top.get_yaxis_transform(),
-        ha="right",
+        va="bottom",
         fontsize=7,
         color="0.4",
     )
@@ -133,8 +136,13 @@ def horizon(section: Flight, flights: pd.DataFrame) -> Drawing:
     bottom.plot(
         0.0, changes[0, 1], "o", color="C1", ms=6, mfc="none", label="applied: the first one"
     )
-    for sign in (-1, 1):
-        bottom.axhline(sign * law.control_bounds[1], color="0.5", lw=0.8, ls=":")
+    bound = law.control_bounds[1]
+    for limit in (-bound, bound):
+        bottom.axhline(limit, color="0.5", lw=0.8, ls=":")
+    bottom.text(
+        0.01, bound, "bound", transform=bottom.get_yaxis_transform(), va="top", fontsize=7,
+        color="0.4",
+    )  # fmt: skip
     bottom.set(xlabel="time from $t_k$ [s]", ylabel=r"$\Delta v_y$ [m/s]")
     bottom.legend(loc="lower right")
     for axes in (top, bottom):
@@ -181,14 +189,19 @@ def phases(section: Flight, flights: pd.DataFrame, paths: pd.DataFrame) -> Drawi
     near.plot([0.0], [0.0], "ks", ms=6)
     near.plot(law.port, 0.0, "^", color="C3", ms=5)
     near.text(law.port, -0.24 * limit / 2, "port", fontsize=8, color="C3", ha="center")
-    near.set(xlim=(-0.25 * limit, limit), ylim=(-limit / 2, limit / 2))
+    near.set(xlim=(-0.25 * limit, limit), ylim=(-0.6 * limit, 0.65 * limit), aspect="equal")
     near.set_title("approach and docking")
     wide.text(0.0, -0.6 * law.keep_out, "keep-out\nzone $r_1$", ha="center", fontsize=8)
     wide.text(1.35 * law.keep_out, 0.33 * law.keep_out, "approach\ncone", ha="center", fontsize=8)
-    points = {0: law.set_points[0], 1: law.set_points[1]}
-    wide.plot(points[0], 0.0, "x", color="black", ms=6)
-    near.plot(points[1], 0.0, "x", color="black", ms=6)
-    for axes in (wide, near):
+    for axes, point, of, name in (
+        (wide, law.set_points[0], law.keep_out, "$r_1$"),
+        (near, law.set_points[1], law.overshoot, "$r_2$"),
+    ):
+        axes.plot(point, 0.0, "x", color="black", ms=6, zorder=4)
+        axes.annotate(
+            f"set point:\n{point / of:.2f} {name}", (point, 0.0), (0.98, 0.03), ha="right",
+            textcoords="axes fraction", fontsize=8, arrowprops={"arrowstyle": "-", "lw": 0.6},
+        )  # fmt: skip
         for phase in PHASES:
             part = path[path["phase"] == phase]
             axes.plot(
@@ -204,7 +217,7 @@ def phases(section: Flight, flights: pd.DataFrame, paths: pd.DataFrame) -> Drawi
     wide.set_ylabel("radial $x$ [m]")
     handles, labels = wide.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=3)
-    figure.suptitle(f"crosses: set points; {INFERRED}", fontsize=7, color="0.4")
+    figure.suptitle(f"Case 1; {INFERRED}, and so are set points", fontsize=7, color="0.4")
     rows = [
         ("keep-out radius r1 [m]", law.keep_out),
         ("overshoot distance r2 [m]", law.overshoot),
@@ -267,7 +280,8 @@ def rotating_planes(section: Flight, flights: pd.DataFrame) -> Drawing:
     )
     turn = np.degrees(np.arccos(np.clip(normals[0] @ normals[-1], -1.0, 1.0)))
     axes.set_title(
-        f"{len(chosen)} of {stages + 1} planes, {turn:.0f}° over the horizon; {INFERRED}",
+        f"one horizon of the QP without set point: {len(chosen)} of {stages + 1} planes, turned by "
+        f"{turn:.0f}°\n{INFERRED}",
         fontsize=7,
         color="0.4",
     )

@@ -15,18 +15,20 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 from matplotlib.pyplot import subplots
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from smallsat.drawing.figure import Drawing
-from smallsat.drawing.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION
+from smallsat.drawing.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, WIDTH
 from smallsat.dynamics.units import KM, MINUTE
 from smallsat.studies.rendezvous.inference.axes import PrintedAxes
 from smallsat.studies.rendezvous.monte_carlo.cases import PHASES, sweep_case
 from smallsat.studies.rendezvous.monte_carlo.tables import column, totals
 
 # Hundreds of dots a colour stay readable when each is small and lets the others through.
-DOT: dict[str, Any] = {"s": 7.0, "alpha": 0.45, "linewidths": 0.0}
+DOT: dict[str, Any] = {"s": 7.0, "alpha": 0.55, "linewidths": 0.0}
 QUADRANT_COLOURS = {1: BLUE, 2: GREEN, 3: ORANGE, 4: VERMILION}
 QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
+DARK = "0.3"
 RINGS_KM = (0.15, 0.5, 1.0, 1.5, 2.0, 2.5)
 
 
@@ -43,8 +45,8 @@ def by_quadrant(states: pd.DataFrame, rows: pd.DataFrame) -> Drawing:
     data = _costs(states, rows)
     colours = data["quadrant"].map(QUADRANT_COLOURS)
     entries = [(f"quadrant {q}", colour) for q, colour in QUADRANT_COLOURS.items()]
-    figure, axes = _pair(data, colours)
-    _legend(axes[1], entries)
+    figure = _pair(data, colours)
+    _legend(figure, entries)
     return figure, data
 
 
@@ -54,8 +56,8 @@ def by_distance(states: pd.DataFrame, rows: pd.DataFrame) -> Drawing:
     rings = list(pairwise(RINGS_KM))
     palette = shades(len(rings))
     ring = np.clip(np.digitize(data["distance_m"] / KM, RINGS_KM) - 1, 0, len(rings) - 1)
-    figure, axes = _pair(data, [palette[i] for i in ring])
-    _legend(axes[1], [(f"{a:g} to {b:g} km", palette[i]) for i, (a, b) in enumerate(rings)])
+    figure = _pair(data, [palette[i] for i in ring])
+    _legend(figure, [(f"{a:g} to {b:g} km", palette[i]) for i, (a, b) in enumerate(rings)])
     return figure, data
 
 
@@ -71,8 +73,8 @@ def costs_beside_baseline(
     for case, colour in (("baseline", GREY), (name, BLUE)):
         one = data[data["case"] == case]
         axes.scatter(one["time_min"], one["delta_v_m_s"], color=colour, **DOT)
-    axes.set(xlabel="manoeuvre time [min]", ylabel=r"$\Delta v$ [m/s]", ylim=(0, None))
-    _legend(axes, [("QP with set point", GREY), (name, BLUE)])
+    _cost_axes(axes)
+    _legend(figure, [("QP with set point", GREY), (name, BLUE)])
     return figure, data
 
 
@@ -109,32 +111,28 @@ def sweep(
         entries.append((f"{t:g} s{note}", palette[i]))
     # Dots of all sample times in turn, so that no colour lies on top of the others.
     data = pd.concat(parts, ignore_index=True).sort_values(["sample", "sample_time_s"])
-    figure, axes = subplots(1, 2, figsize=(6.6, 3.3), sharey=True)
+    figure, axes = subplots(1, 2, figsize=(WIDTH, 3.2), sharey=True)
     colours = [palette[i] for i in data["shade"]]
     axes[0].scatter(data["time_s"] / MINUTE, data["delta_v_m_s"], color=colours, **DOT)
     axes[1].scatter(data["steps"], data["delta_v_m_s"], color=colours, **DOT)
-    ends = [_end(data["time_s"] / MINUTE), _end(data["steps"]), _end(data["delta_v_m_s"])]
+    handles = [_handle(colour, label) for label, colour in entries]
+    drawn = (data["time_s"] / MINUTE, data["steps"], data["delta_v_m_s"])
+    ends = [_end(values) for values in drawn]
+    begins = [_begin(values) for values in drawn]
     if printed:
         levels = (printed.time_min, printed.intervals, printed.delta_v_m_s)
         ends = [max(end, 1.04 * level[1]) for end, level in zip(ends, levels, strict=True)]
+        begins = [min(begin, 0.96 * level[0]) for begin, level in zip(begins, levels, strict=True)]
+        frame: dict[str, Any] = {"color": DARK, "lw": 0.9, "ls": "--"}
+        handles.append(Line2D([], [], label="axes as printed", **frame))
         for one, (left, right) in zip(axes, levels, strict=False):
             low, high = printed.delta_v_m_s
             one.add_patch(
-                Rectangle(
-                    (left, low), right - left, high - low, fill=False, color=GREY, lw=0.9, ls="--"
-                )
+                Rectangle((left, low), right - left, high - low, fill=False, clip_on=False, **frame)
             )
-        axes[0].text(
-            printed.time_min[0],
-            printed.delta_v_m_s[1],
-            "axes as printed",
-            fontsize=7,
-            color=GREY,
-            va="bottom",
-        )
-    for one, end in zip(axes, ends, strict=False):
-        one.set_xlim(0, end)
-    axes[0].set_ylim(0, ends[2])
+    for one, begin, end in zip(axes, begins, ends, strict=False):
+        one.set_xlim(begin, end)
+    axes[0].set_ylim(begins[2], ends[2])
     beyond = (
         (data["time_s"] / MINUTE > ends[0])
         | (data["steps"] > ends[1])
@@ -146,14 +144,13 @@ def sweep(
     axes[1].set(xlabel="number of control actuations")
     for name, one in zip("ab", axes, strict=True):
         one.set_title(f"({name})", loc="left")
-    handles = [_handle(colour, label) for label, colour in entries]
     figure.legend(
         handles=handles,
         loc="outside upper center",
-        ncols=min(len(handles), 6 if len(max(entries)[0]) < 12 else 3),
+        ncols=min(len(handles), 6 if len(max(label for label, _ in entries)) < 12 else 3),
         title=f"sample time, horizon {horizon}",
         columnspacing=1.2,
-        handletextpad=0.1,
+        handletextpad=0.3,
     )
     return figure, data.drop(columns="shade").reset_index(drop=True)
 
@@ -168,7 +165,7 @@ def summary(sweeps: dict[str, tuple[pd.DataFrame, Sequence[int], Sequence[float]
         "time_s": ("time [min]", MINUTE),
         "steps": ("actuations", 1.0),
     }
-    figure, axes = subplots(len(PHASES), len(quantities), figsize=(7.0, 7.6))
+    figure, axes = subplots(len(PHASES), len(quantities), figsize=(WIDTH, 4.45))
     colours = (ORANGE, BLUE, BLACK)
     rows = []
     for line, phase in zip(axes, PHASES, strict=True):
@@ -176,12 +173,14 @@ def summary(sweeps: dict[str, tuple[pd.DataFrame, Sequence[int], Sequence[float]
         done = table[table["completed"]]
         positions_ = np.arange(len(sample_times), dtype=float)
         for panel, (quantity, (label, unit)) in zip(line, quantities.items(), strict=True):
+            low, high = np.inf, 0.0
             for i, n in enumerate(horizons):
                 found = np.full((len(sample_times), len(QUANTILES)), np.nan)
                 for j, t in enumerate(sample_times):
                     values = done.loc[done["case"] == sweep_case(n, t), column(phase, quantity)]
                     if len(values):
                         found[j] = np.quantile(values / unit, QUANTILES)
+                        low, high = min(low, found[j].min()), max(high, found[j].max())
                     rows.append(
                         {"phase": phase, "horizon": n, "sample_time_s": t, "quantity": label,
                          "count": len(values)}
@@ -189,18 +188,35 @@ def summary(sweeps: dict[str, tuple[pd.DataFrame, Sequence[int], Sequence[float]
                     )  # fmt: skip
                 x = positions_ + 0.24 * (i - 0.5 * (len(horizons) - 1))
                 colour = colours[i % len(colours)]
-                panel.vlines(x, found[:, 0], found[:, 4], color=colour, lw=0.9)
-                panel.vlines(x, found[:, 1], found[:, 3], color=colour, lw=3.4, alpha=0.45)
-                panel.plot(x, found[:, 2], "o", ms=3.2, color=colour, label=f"N {n}")
+                panel.vlines(x, found[:, 0], found[:, 4], color=colour, lw=0.8)
+                panel.vlines(x, found[:, 1], found[:, 3], color=colour, lw=2.8, alpha=0.45)
+                panel.plot(x, found[:, 2], "o", ms=2.6, color=colour, label=f"N {n}")
             panel.set_xticks(positions_, [f"{t:g}" for t in sample_times])
-            panel.set_ylim(0, None)
-            panel.set_ylabel(label)
+            _log_axis(panel, low, high)
+            panel.tick_params(labelsize=7)
             panel.grid(axis="x", visible=False)
         line[0].set_title(f"{phase} phase", loc="left", fontweight="bold")
-        line[1].set_title("")
-        line[-1].legend(loc="upper right", handletextpad=0.2, borderpad=0.2)
-        line[1].set_xlabel("sample time [s]")
+        line[-1].legend(
+            loc="lower right", bbox_to_anchor=(1.02, 0.97), ncols=len(horizons), fontsize=7,
+            handletextpad=0.0, columnspacing=0.8, borderpad=0.0,
+        )  # fmt: skip
+    for panel, (label, _) in zip(axes[1], quantities.values(), strict=True):
+        panel.set_ylabel(label)
+    for panel in axes[-1]:
+        panel.set_xlabel("sample time [s]")
     return figure, pd.DataFrame(rows)
+
+
+def _log_axis(axes: Axes, low: float, high: float) -> None:
+    """A logarithmic axis over the data, with ticks that are read as numbers."""
+    if not low < high:
+        return
+    subdivisions = (1, 2, 3, 5) if high > 2.0 * low else tuple(np.arange(1.0, 10.0, 0.5))
+    axes.set_yscale("log")
+    axes.set_ylim(low / 1.08, high * 1.08)
+    axes.yaxis.set_major_locator(LogLocator(subs=subdivisions))
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.yaxis.set_minor_locator(NullLocator())
 
 
 def shades(count: int) -> list:
@@ -224,18 +240,22 @@ def _costs(states: pd.DataFrame, rows: pd.DataFrame) -> pd.DataFrame:
     ).reset_index(drop=True)
 
 
-def _pair(data: pd.DataFrame, colours: Iterable) -> tuple[Figure, np.ndarray]:
+def _pair(data: pd.DataFrame, colours: Iterable) -> Figure:
     colours = list(colours)
-    figure, axes = subplots(1, 2, figsize=(6.8, 3.2), width_ratios=(1.0, 1.15))
+    figure, axes = subplots(1, 2, figsize=(WIDTH, 3.2), width_ratios=(1.0, 1.15))
     axes[0].scatter(data["y_m"] / KM, data["x_m"] / KM, color=colours, **DOT)
     _orbit_axes(axes[0])
     axes[1].scatter(data["time_min"], data["delta_v_m_s"], color=colours, **DOT)
-    axes[1].set(xlabel="manoeuvre time [min]", ylabel=r"$\Delta v$ [m/s]")
-    axes[1].set_ylim(0, None)
-    axes[1].set_xlim(0, None)
+    _cost_axes(axes[1])
     for name, panel in zip("ab", axes, strict=True):
         panel.set_title(f"({name})", loc="left")
-    return figure, axes
+    return figure
+
+
+def _cost_axes(axes: Axes) -> None:
+    axes.set(
+        xlabel="manoeuvre time [min]", ylabel=r"$\Delta v$ [m/s]", xlim=(0, None), ylim=(0, None)
+    )
 
 
 def _orbit_axes(axes: Axes) -> None:
@@ -246,8 +266,13 @@ def _orbit_axes(axes: Axes) -> None:
     axes.invert_yaxis()
 
 
-def _legend(axes: Axes, entries: Sequence[tuple]) -> None:
-    axes.legend(handles=[_handle(colour, label) for label, colour in entries], handletextpad=0.1)
+def _legend(figure: Figure, entries: Sequence[tuple]) -> None:
+    """Above the panels, where no dot lies under it."""
+    handles = [_handle(colour, label) for label, colour in entries]
+    figure.legend(
+        handles=handles, loc="outside upper center", ncols=len(handles), handletextpad=0.1,
+        columnspacing=1.2,
+    )  # fmt: skip
 
 
 def _handle(colour, label: str) -> Line2D:
@@ -260,3 +285,10 @@ def _end(values: pd.Series) -> float:
         return 1.0
     most, usual = float(values.max()), 1.6 * float(values.quantile(0.98))
     return 1.04 * min(most, usual)
+
+
+def _begin(values: pd.Series) -> float:
+    """Where an axis begins: at zero, or where data far from it would be squeezed into one end."""
+    if values.empty or values.min() < 0.5 * values.max():
+        return 0.0
+    return 0.96 * float(values.min())

@@ -5,7 +5,7 @@ automatic axis encloses its data, so that data beyond it are a miss; how much of
 left open, since a few starts find less than the document's 500.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -70,6 +70,21 @@ def printed_axes(phase: str, horizon: int, ledger: Ledger) -> PrintedAxes | None
     return None
 
 
+def _ends(printed: dict[str, str], ledger: Ledger) -> Iterator[tuple[str, str, float]]:
+    """Quantity, ``min`` or ``max``, and place of each end of a figure's axes that is no origin."""
+    for quantity, name in printed.items():
+        for extreme in ("min", "max"):
+            end = ledger.value(f"{name}/{extreme}").value
+            if end > 0.0:
+                yield quantity, extreme, end
+
+
+def missed_axes(ledger: Ledger) -> float:
+    """The part of the misfit of a set that misses every end of the printed axes."""
+    ends = sum(len(list(_ends(printed, ledger))) for *_, printed in FIGURES.values())
+    return ends * WORST_SHARE**2
+
+
 # A phase is given up at so many times its axis; what is beyond is no better there.
 BEYOND = 3.0
 
@@ -115,23 +130,20 @@ def _rows(
 ) -> list[dict]:
     rows = []
     docked = all(bool(one.docked.all()) for one in flown) and len(flown) > 0
-    for quantity, name in printed.items():
-        for end, extreme in (("least", "min"), ("most", "max")):
-            axis = ledger.value(f"{name}/{extreme}").value
-            if axis <= 0.0:
-                continue
-            row = {"kind": "axes", "cell": f"{figure} {quantity} {end}", "printed": axis}
-            for reading in READINGS:
-                found = [_data(one, phase, quantity, reading) for one in flown]
-                data = np.concatenate(found) if found else np.empty(0)
-                value = float(getattr(data, extreme)()) if len(data) else np.nan
-                beyond = value / axis if end == "most" else axis / value
-                miss = max(np.log(beyond), 0.0) / section.inference.axis_error
-                if np.isnan(value) or (end == "most" and not docked):
-                    miss = WORST_SHARE
-                row[f"computed {reading}"] = value
-                row[f"residual {reading}"] = float(min(miss, WORST_SHARE))
-            rows.append(row)
+    for quantity, extreme, axis in _ends(printed, ledger):
+        end = {"min": "least", "max": "most"}[extreme]
+        row = {"kind": "axes", "cell": f"{figure} {quantity} {end}", "printed": axis}
+        for reading in READINGS:
+            found = [_data(one, phase, quantity, reading) for one in flown]
+            data = np.concatenate(found) if found else np.empty(0)
+            value = float(getattr(data, extreme)()) if len(data) else np.nan
+            beyond = value / axis if end == "most" else axis / value
+            miss = max(np.log(beyond), 0.0) / section.inference.axis_error
+            if np.isnan(value) or (end == "most" and not docked):
+                miss = WORST_SHARE
+            row[f"computed {reading}"] = value
+            row[f"residual {reading}"] = float(min(miss, WORST_SHARE))
+        rows.append(row)
     return rows
 
 

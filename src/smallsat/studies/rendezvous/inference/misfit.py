@@ -29,6 +29,8 @@ from smallsat.studies.rendezvous.parameters import law, start_state
 from smallsat.studies.rendezvous.simulation.closed_loop import Steps, simulate
 from smallsat.studies.rendezvous.simulation.delta_v import READINGS, summed
 
+# Parts of the misfit.
+KINDS = ("cell", "feasibility", "text", "axes")
 FITTED_CASES = (*CASE_TABLES, "no-set-point")
 # Where a manoeuvre that takes this long is given up, s: far beyond the largest miss that counts.
 TIME_LIMITS_S = {"no-set-point": 5600.0}

@@ -16,8 +16,6 @@ OPTIONS: dict[str, tuple[Any, ...]] = {
     for name, field in Readings.model_fields.items()
     if name != "delta_v"
 }
-# Parts of the misfit.
-KINDS = ("cell", "feasibility", "text", "axes")
 # One search each: a reading is held at one of its options, everything else is free.
 SEARCHES = [
     f"{reading}-{option}".replace("_", "-").replace(" ", "-").lower()

@@ -18,16 +18,15 @@ from scipy.optimize import differential_evolution
 
 from smallsat.evidence.ledger import Ledger
 from smallsat.studies.rendezvous.configuration import Cases
-from smallsat.studies.rendezvous.inference.axes import axes
+from smallsat.studies.rendezvous.inference.axes import axes, missed_axes
 from smallsat.studies.rendezvous.inference.misfit import (
-    WORST_SHARE,
+    KINDS,
     misfits,
     residuals,
     simulate_sets,
 )
 from smallsat.studies.rendezvous.inference.parameter_set import (
     FITTED,
-    KINDS,
     OPTIONS,
     SEARCHES,
     ParameterSet,
@@ -35,8 +34,6 @@ from smallsat.studies.rendezvous.inference.parameter_set import (
 )
 from smallsat.studies.rendezvous.simulation.delta_v import READINGS
 
-# Ends of printed axes that are not zero: four of Figure 4.7, five of Figure 4.10.
-ENDS = 9
 # Of a search's first sets, so many come from the long search.
 KEPT_SHARE = 0.5
 
@@ -59,7 +56,7 @@ def evaluate(
     rows: list[dict[str, Any]] = []
     for place, one in enumerate(sets):
         best = str(sums.loc[place].idxmin())
-        missed = float(ENDS * WORST_SHARE**2)
+        missed = missed_axes(ledger)
         if sums.loc[place, best] < section.inference.axes_below:
             found = axes(sections[place], starts, ledger)
             missed = float((found[f"residual {best}"].to_numpy() ** 2).sum())

@@ -12,8 +12,8 @@ from smallsat.evidence.ledger import Ledger
 from smallsat.studies.rendezvous.configuration import Cases, LinearProgram
 from smallsat.studies.rendezvous.evidence.case_tables import total_cells
 from smallsat.studies.rendezvous.inference.axes import axes
-from smallsat.studies.rendezvous.inference.misfit import residuals, simulate_sets
-from smallsat.studies.rendezvous.inference.parameter_set import FITTED, KINDS, OPTIONS
+from smallsat.studies.rendezvous.inference.misfit import KINDS, residuals, simulate_sets
+from smallsat.studies.rendezvous.inference.parameter_set import FITTED, OPTIONS
 from smallsat.studies.rendezvous.simulation.delta_v import READINGS
 
 # Bins over a parameter's bounds, of the lower envelope of the misfit.
