@@ -12,7 +12,7 @@ NUMBERS = {
         "exhaust-speed", "final-radius", "mass-n4-k16", "mass-n4-prose", "mass-n6-prose",
         "extra-digit-k16", "effect-of-degree", "time-n4-prose", "increase-in-time",
     ),
-    "mars": ("table-8-sigma-1", "nadir-frame-sign", "gain-fraction", "day-length"),
+    "mars": ("table-8-sigma-1", "nadir-frame-sign", "gain-fraction"),
     "slew": (
         "table-3-time-optimal", "table-3-eigenaxis", "table-2-velocity-sign",
         "eigenaxis-peak-momentum", "guidance-share",

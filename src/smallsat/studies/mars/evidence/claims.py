@@ -134,7 +134,7 @@ def nadir_rate_is_orbit_rate(grounds: Grounds[Configuration]) -> Judgement:
     lmo = Parameters.from_section(grounds.section).lmo
     times = np.linspace(0.0, grounds.section.durations_s.mission, 50)
     worst = max(
-        float(np.linalg.norm(_frame_rate(lambda t: nadir_frame(lmo, t), time) - np.array(rate)))
+        float(np.linalg.norm(frame_rate(lambda t: nadir_frame(lmo, t), time) - np.array(rate)))
         for time, rate in ((time, nadir_frame_rate(lmo, time)) for time in times)
     )
     return judged(
@@ -148,7 +148,7 @@ def finite_difference_converges(grounds: Grounds[Configuration]) -> Judgement:
     section = grounds.section
     parameters = Parameters.from_section(section)
     time = float(section.answer_times_s.reference_frames)
-    exact = _frame_rate(lambda t: gmo_frame(parameters.lmo, parameters.gmo, t), time)
+    exact = frame_rate(lambda t: gmo_frame(parameters.lmo, parameters.gmo, t), time)
     spans = [section.frame_difference_s.control / 10**n for n in range(4)]
     errors = [
         float(
@@ -219,6 +219,22 @@ def attitude_oscillation_speeds_up(grounds: Grounds) -> Judgement:
         np.all(np.diff(means) > 0) and changes[1] > changes[0],
         f"mean rate by quarters: {', '.join(f'{m:.2f}' for m in means)} rad/s; the MRPs change "
         f"sign {changes[0]} times in the first quarter and {changes[1]} times in the last",
+    )
+
+
+def turns_faster_than_a_step(grounds: Grounds[Configuration]) -> Judgement:
+    """The fastest rate of the fixed-torque run: a step must turn the body by half a turn or more.
+
+    Up to two samples a turn an oscillation can be told from a slower one.
+    """
+    _, accurate = _both(grounds, "fixed torque")
+    fastest = float(np.linalg.norm(accurate[OMEGA].to_numpy(), axis=1).max())
+    step = grounds.section.step_s
+    return judged(
+        fastest * step >= np.pi,
+        f"at its fastest the body turns by {np.degrees(fastest * step):.0f} deg in a step of "
+        f"{step:g} s, {2.0 * np.pi / (fastest * step):.1f} steps a turn: more than the two that an "
+        f"oscillation needs. What spoils the end is the error that the integration gathers",
     )
 
 
@@ -398,7 +414,7 @@ def _sign_changes(values: np.ndarray) -> np.ndarray:
     return np.sum(np.diff(np.signbit(values), axis=0), axis=0)
 
 
-def _frame_rate(frame, time: float, span: float = 0.1) -> np.ndarray:
+def frame_rate(frame, time: float, span: float = 0.1) -> np.ndarray:
     """Inertial rate of a frame by a central difference of order 4."""
     weights = {-2: 1.0, -1: -8.0, 1: 8.0, 2: -1.0}
     change = sum(w * np.array(frame(time + n * span)) for n, w in weights.items()) / (12.0 * span)

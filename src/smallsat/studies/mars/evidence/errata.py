@@ -3,7 +3,6 @@
 from collections.abc import Iterable, Sequence
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from smallsat.dynamics.attitude.mrp import mrp_to_dcm
 from smallsat.dynamics.attitude.rigid_body import angular_momentum, kinetic_energy
@@ -14,7 +13,6 @@ from smallsat.evidence.grounds import Grounds
 from smallsat.evidence.printed import Printed
 from smallsat.studies.mars.configuration import Configuration
 from smallsat.studies.mars.evidence.claims import (
-    MARS_DAY,
     SIGMA,
     angle_between,
     directions,
@@ -23,7 +21,6 @@ from smallsat.studies.mars.evidence.claims import (
 from smallsat.studies.mars.evidence.observations import row_at
 from smallsat.studies.mars.methods.simulation import (
     AUTOMATIC,
-    POINTING_RUNS,
     document_runs,
     finite,
     run,
@@ -284,44 +281,20 @@ def reference_rate_frame(grounds: Grounds[Configuration]) -> Proof:
     )
 
 
-def day_length(grounds: Grounds[Configuration]) -> Proof:
-    """The commented-out 90000 s is no Mars day; 88620 s is the mothercraft's period."""
-    period = 2.0 * np.pi / grounds.section.orbits.gmo.rate_rad_s
-    listed = grounds.ledger.value("listing-a-l-task-11/tf-commented-out/day-long-run")
-    day = grounds.ledger.value(MARS_DAY)
-    return Proof(
-        day.matches(period) and not listed.matches(period),
-        f"{listed.value:.0f} s",
-        f"{day.value:.0f} s",
-        f"The areosynchronous rate of Table 2 makes a period of {period:.2f} s: the text's "
-        f"{day.value:.0f} s, not the listing's {listed.value:.0f} s",
-        correct=float(period),
-    )
-
-
-def switch_thresholds(grounds: Grounds[Configuration]) -> Proof:
-    """The tasks' different MRP switch thresholds change no attitude."""
+def first_row_of_listings(grounds: Grounds[Configuration]) -> Proof:
+    """Listings A.I to A.L begin with the body's state as the reference and without torque."""
     section = grounds.section
     parameters = Parameters.from_section(section)
-    step, difference = section.step_s, section.frame_difference_s.control
-    thresholds = sorted({threshold for _, threshold in section.mrp_switch})
-    durations = section.durations_s
-    commands = [(mode, durations.response) for mode in POINTING_RUNS.values()]
-    commands.append((AUTOMATIC, durations.mission))
-    worst = 0.0
-    for command, duration in commands:
-        records = [run(parameters, command, duration, step, difference, one) for one in thresholds]
-        if not all(map(finite, records)):
-            raise LookupError("a run overflowed")
-        attitudes = [Rotation.from_mrp(record[:, 1:4].copy()) for record in records]
-        angles = [(attitudes[0].inv() * other).magnitude().max() for other in attitudes[1:]]
-        worst = max([worst, *(float(angle) for angle in angles)])
+    state, gains = parameters.initial_state, parameters.gains
+    sigma, rate = tracking_error(state[:3], state[3:], SUN_FRAME, SUN_FRAME_RATE)
+    torque = -gains.k * np.array(sigma) - gains.p * np.array(rate)
     return Proof(
-        len(thresholds) > 1 and worst < 1e-6,
-        f"thresholds {', '.join(f'{one:g}' for one in thresholds)}",
-        "any one of them",
-        f"All {len(thresholds)} thresholds give the same attitudes in the three pointing runs "
-        f"and the mission, to {worst:.1e} rad: an inconsistency without effect",
+        np.linalg.norm(sigma) > ORTHOGONAL and np.linalg.norm(torque) > ORTHOGONAL,
+        "sigma_R = sigma_B and u = 0 at the start",
+        f"|sigma_B/R| = {np.linalg.norm(sigma):.3f}, u = {vector(torque, 4)} N m",
+        f"In Sun pointing the body begins {np.linalg.norm(sigma):.3f} (MRPs) away from the "
+        f"reference, and the control law answers with u = {vector(torque, 4)} N m at once; every "
+        f"later row has torque and reference of the step before it",
     )
 
 
