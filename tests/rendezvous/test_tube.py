@@ -57,18 +57,18 @@ def test_worst_disturbances_reach_the_invariant_margins_and_none_exceeds_them(la
 
 
 def test_stationary_margins_are_standard_deviations(law):
-    """20 000 deviations after 150 steps of normal disturbances, within 3 %."""
+    """5000 deviations after 100 steps of normal disturbances, within 4 %, four sampling errors."""
     moved, margins = deviation(law, NOISE), stationary_margins(law, NOISE)
-    random, states = np.random.default_rng(3), np.zeros((20000, 6))
-    for _ in range(150):
+    random, states = np.random.default_rng(3), np.zeros((5000, 6))
+    for _ in range(100):
         states = states @ moved.transition.T
-        states += random.standard_normal((20000, 9)) @ moved.inputs.T
-    seen = random.standard_normal((20000, 9)) @ moved.seen.T
+        states += random.standard_normal((5000, 9)) @ moved.inputs.T
+    seen = random.standard_normal((5000, 9)) @ moved.seen.T
     faces = (states @ cone_rows(law).T).std(axis=0)
-    assert faces.max() == pytest.approx(margins.cone, rel=0.03)
-    assert states[:, 3:].std(axis=0).max() == pytest.approx(margins.speed, rel=0.03)
+    assert faces.max() == pytest.approx(margins.cone, rel=0.04)
+    assert states[:, 3:].std(axis=0).max() == pytest.approx(margins.speed, rel=0.04)
     control = states @ moved.gain.T + seen
-    assert control.std(axis=0).max() == pytest.approx(margins.control, rel=0.03)
+    assert control.std(axis=0).max() == pytest.approx(margins.control, rel=0.04)
 
 
 def test_the_feedback_adds_to_the_nominal_control_and_the_nominal_state_moves_alone(law):
