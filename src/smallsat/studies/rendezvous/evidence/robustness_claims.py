@@ -136,7 +136,7 @@ def smaller_errors_near_help(grounds: Grounds[Configuration]) -> Judgement:
     raw, better = _same_runs(grounds, AS_DOCUMENTED, best)
     bounce = _bounce(grounds)
     if above([bounce], BOUNCING) != "holds":
-        return judgement("undecided", "no bounce to reduce, in docking times", [bounce])
+        return judgement("undecided", "no sure bounce to reduce, of docking times", [bounce])
     found = []
     for name, key in (
         ("docking time", f"docking_{TIME}"), (WORDS[DELTA_V], DELTA_V), (WORDS[TIME], TIME)

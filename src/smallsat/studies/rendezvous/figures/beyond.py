@@ -81,7 +81,9 @@ def tube(ways: pd.DataFrame, sizes: pd.DataFrame, distances: Mapping[str, float]
     left.axhline(next(iter(distances.values())), color=BLACK, lw=0.8, ls=":")
     left.set(yscale="log", xlabel="time in docking [min]", ylabel="distance from the port [m]")
     left.set_xlim(0, None)
-    left.legend(fontsize=7, ncols=2, loc="lower right", bbox_to_anchor=(1.0, 1.0))
+    # A run whose manoeuvres never come to dock has none to name.
+    if not shown.empty:
+        left.legend(fontsize=7, ncols=2, loc="lower right", bbox_to_anchor=(1.0, 1.0))
 
     measured = sizes[sizes["source"] == "measurement"]
     thrust = sizes[(sizes["source"] == "thrust") & (sizes["error_share"] == 1.0)]
