@@ -1,4 +1,4 @@
-# Racing: CubeSats through rings, as published and as it should have been run.
+# Racing: CubeSats through rings, as its listings have it and as it should have been run.
 from smallsat.studies.racing.parameters import SCENARIOS, course_files
 
 RACING_PARTS = ["races.csv", "rings.csv", "segments.csv", "trajectories.parquet"]
@@ -20,11 +20,11 @@ step(
 for scenario in SCENARIOS:
     step(
         "racing",
-        f"as-published-{scenario}",
-        runs="as_published",
+        f"listing-{scenario}",
+        runs="listing",
         part=scenario,
-        makes=[f"as-published-{scenario}-{table}" for table in RACING_PARTS],
-        clock=[f"as-published-{scenario}-seconds.csv"],
+        makes=[f"listing-{scenario}-{table}" for table in RACING_PARTS],
+        clock=[f"listing-{scenario}-seconds.csv"],
         **COURSES,
     )
     step(
@@ -38,6 +38,7 @@ for scenario in SCENARIOS:
     )
 
 step("racing", "variants", makes=["variants.csv"], **COURSES)
+step("racing", "simple_guesses", makes=["simple-guesses.csv"], **COURSES)
 step(
     "racing",
     "checks",
@@ -77,11 +78,11 @@ step(
         *[
             f"{kind}-{scenario}-{table}.csv"
             for scenario in SCENARIOS
-            for kind in ("as-published", "optima")
+            for kind in ("listing", "optima")
             for table in ("races", "rings")
         ],
         *[f"random-courses-{shard}.csv" for shard in RANDOM_SHARDS],
-        *[f"{kind}-scenario-2-seconds.csv" for kind in ("as-published", "optima")],
+        *[f"{kind}-scenario-2-seconds.csv" for kind in ("listing", "optima")],
         *[f"optima-{scenario}-not-converged.csv" for scenario in SCENARIOS],
         *[f"random-courses-{shard}-not-converged.csv" for shard in RANDOM_SHARDS],
         "checks-not-converged.csv",
@@ -92,6 +93,13 @@ step(
     clock=["timings.csv"],
 )
 
+step(
+    "racing",
+    "propellant",
+    reads=["races.csv", "thrust-sweep.csv"],
+    makes=["propellant.csv"],
+)
+
 JUDGED["racing"] = [
     "observations.csv",
     "races.csv",
@@ -100,13 +108,15 @@ JUDGED["racing"] = [
     "variants.csv",
     "meshes.csv",
     "other-starts.csv",
+    "simple-guesses.csv",
     "thrust-sweep.csv",
+    "propellant.csv",
     "random-positions.csv",
     "dynamic-programming.csv",
     "course-scenario-1.csv",
     *[
         f"{kind}-scenario-1-{table}"
-        for kind in ("as-published", "optima")
+        for kind in ("listing", "optima")
         for table in ("segments.csv", "trajectories.parquet")
     ],
 ]

@@ -30,8 +30,8 @@ TARGETS = (
 # What reads a course file, and only that: the commands of the study, and its judge.
 READERS = {
     "racing_courses",
-    "racing_as_published_scenario_1",
-    "racing_as_published_scenario_2",
+    "racing_listing_scenario_1",
+    "racing_listing_scenario_2",
     "racing_optima_scenario_1",
     "racing_optima_scenario_2",
     "racing_variants",

@@ -72,7 +72,7 @@ def test_redundancy_proof_can_fail(section, monkeypatch, tmp_path, grounds):
     """Were the twelve rows of rank five, nothing would be redundant beyond the fixed ones."""
     monkeypatch.setattr(errata, "equality_ranks", lambda *_, **__: (5, 5, 3))
     table = pd.DataFrame({"converged": [True]})
-    write_table(table, tmp_path / "as-published-scenario-1-segments.csv")
+    write_table(table, tmp_path / "listing-scenario-1-segments.csv")
     assert not errata.redundant_equalities(grounds("racing", section, tmp_path)).holds
 
 

@@ -1,1 +1,1 @@
-"""Racing: CubeSats through rings, as published and as it should have been run."""
+"""Racing: CubeSats through rings, as its listings have it and as it should have been run."""

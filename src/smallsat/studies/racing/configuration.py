@@ -40,6 +40,8 @@ def _absolute(path: str) -> str:
 
 Ordered = Annotated[tuple[T, T], AfterValidator(_ordered), Len(2, 2)]
 Angle = Annotated[Number, Interval(ge=-180, le=180)]
+# What ode45 takes: its least is a hundred times the spacing of numbers at one.
+Tolerance = Annotated[Number, Interval(ge=2.3e-14, le=1e-3)]
 Panels = Annotated[Integer, Interval(ge=8, le=10000)]
 
 
@@ -94,8 +96,8 @@ class Scenarios(Part):
     scenario_2: Scenario = Field(alias="scenario-2")
 
 
-class AsPublished(Part):
-    """Listings C.C to C.F: the flight has the tolerance, the quadrature in the solve the panels."""
+class Listing(Part):
+    """Listings C.B to C.F; the tolerance is that of the flights, others are flown as variants."""
 
     duration_multiple: Annotated[Number, Ge(1)]
     costate_bound: Positive
@@ -103,10 +105,8 @@ class AsPublished(Part):
     deadzone: NonNegative
     constraint_deadzone: NonNegative
     final_hamiltonian: Annotated[Number, Lt(0)]
-    tolerance: Positive
-    panels: Panels
-    first_weight: Positive
-    other_first_weights: Differing[Positive]
+    tolerance: Tolerance
+    other_tolerances: Differing[Tolerance]
 
 
 class Optimum(Part):
@@ -134,6 +134,14 @@ class RandomCourses(Part):
     positions: Annotated[Integer, Interval(ge=2, le=1000)]
 
 
+class SpecificImpulses(Part):
+    """Of kinds of propulsion, s."""
+
+    cold_gas: Positive
+    monopropellant: Positive
+    field_emission: Positive
+
+
 class Animation(Part):
     frames_per_s: Count
     step_s: Positive
@@ -147,9 +155,10 @@ class Configuration(Part):
     start: Start
     passage: Passage
     scenarios: Scenarios
-    as_published: AsPublished
+    listing: Listing
     optimum: Optimum
     dynamic_programming: DynamicProgramming
     random_courses: RandomCourses
     thrust_sweep_m_s2: Annotated[Several[Positive], Len(2)]
+    specific_impulses_s: SpecificImpulses
     animation: Animation

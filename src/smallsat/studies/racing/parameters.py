@@ -8,7 +8,6 @@ import numpy as np
 from smallsat.dynamics.units import MINUTE
 from smallsat.errors import InputError
 from smallsat.studies.racing.configuration import Configuration, CourseRanges, Scenario
-from smallsat.studies.racing.methods.as_published import Settings
 from smallsat.studies.racing.model.course import COINCIDENT, Course, Ranges, check_course, generate
 from smallsat.studies.racing.model.course_file import read_course_file
 from smallsat.studies.racing.model.cubesat import CubeSat, cubesat
@@ -23,6 +22,49 @@ class Race:
 
     course: Course
     cubesats: tuple[CubeSat, ...]
+
+
+@dataclass(frozen=True)
+class Listing:
+    """Numbers of Listings C.C and C.E, and how faithfully they are followed.
+
+    Attributes
+    ----------
+    duration_multiple
+        Multiple of the least possible time, for the guess of the duration.
+    costate_bound
+        Bound of each initial costate, either way.
+    evaluations
+        Largest number of function evaluations, differences included.
+    deadzone, constraint_deadzone
+        Size below which a component of the primer counts as none, in the flight and in the
+        constraints.
+    final_hamiltonian
+        Its target.
+    plane
+        Largest distance from the ring's plane, m.
+    tolerance
+        Relative and absolute tolerance of a flight.
+    transposed
+        Whether the costates' matrix is the right one; the listing's is not.
+    ring_sizes
+        Whether a ring has its smaller axis as its size; by the listing it has none.
+    direct_guess
+        Whether a segment begins with the costates and the time of the direct method, where that
+        converges; the listing's guess is made of directions.
+    """
+
+    duration_multiple: float
+    costate_bound: float
+    evaluations: int
+    deadzone: float
+    constraint_deadzone: float
+    final_hamiltonian: float
+    plane: float
+    tolerance: float
+    transposed: bool = False
+    ring_sizes: bool = False
+    direct_guess: bool = False
 
 
 @dataclass(frozen=True)
@@ -41,8 +83,8 @@ class Parameters:
         By scenario.
     plane, pointing
         Largest distance from a ring's plane, m, and angle to its normal, rad, of a passage.
-    as_published
-        Settings of the listings.
+    listing
+        What the listings solve with.
     """
 
     mean_motion: float
@@ -51,7 +93,7 @@ class Parameters:
     races: dict[str, Race]
     plane: float
     pointing: float
-    as_published: Settings
+    listing: Listing
 
     @classmethod
     def from_section(cls, section: Configuration) -> "Parameters":
@@ -63,7 +105,7 @@ class Parameters:
             Naming the file or key of a course that is none, or of a CubeSat that starts in its
             ring.
         """
-        listing, passage = section.as_published, section.passage
+        listing, passage = section.listing, section.passage
         ranges = ranges_of(section.course)
         return cls(
             mean_motion=2.0 * np.pi / (section.orbit_period_min * MINUTE),
@@ -72,7 +114,7 @@ class Parameters:
             races={name: _race(section, name, ranges) for name in SCENARIOS},
             plane=passage.plane_m,
             pointing=float(np.radians(passage.pointing_deg)),
-            as_published=Settings(
+            listing=Listing(
                 duration_multiple=listing.duration_multiple,
                 costate_bound=listing.costate_bound,
                 evaluations=listing.evaluations,
@@ -80,8 +122,7 @@ class Parameters:
                 constraint_deadzone=listing.constraint_deadzone,
                 final_hamiltonian=listing.final_hamiltonian,
                 plane=passage.plane_m,
-                panels=listing.panels,
-                first_penalty=listing.first_weight,
+                tolerance=listing.tolerance,
             ),
         )
 

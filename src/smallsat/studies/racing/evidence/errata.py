@@ -10,9 +10,9 @@ from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
 from smallsat.evidence.errata import Proof
 from smallsat.evidence.grounds import Grounds
 from smallsat.studies.racing.configuration import Configuration
-from smallsat.studies.racing.methods import as_published
+from smallsat.studies.racing.methods import listing
 from smallsat.studies.racing.methods.flight import propagate_segment
-from smallsat.studies.racing.methods.races import INDIRECT
+from smallsat.studies.racing.methods.listing_races import targets
 from smallsat.studies.racing.methods.recovery import start_positions
 from smallsat.studies.racing.model.course import generate
 from smallsat.studies.racing.model.matlab_random import MatlabStream
@@ -34,9 +34,6 @@ SECONDS = 90.0
 CONSTANT, DRIFTING = 1e-9, 1e-3
 # A primer vector with a component below the deadzone.
 PRIMER = np.array([2.0, 0.5, -3.0])
-# Singular values below this share of the largest count as zero.
-RANK = 1e-5
-FINE = 64
 
 
 def _seeds(section: Configuration) -> dict[str, int]:
@@ -136,10 +133,9 @@ def hamiltonian_drift(section: Configuration, transposed: bool) -> tuple[float, 
     race = parameters.races["scenario-1"]
     cubesat = next(c for c in race.cubesats if c.name == "Meeny")
     state = np.r_[cubesat.position, np.zeros(3)]
-    target = as_published.Target(
-        race.course.centres[0], race.course.normals[0], 0.0, race.course.start, False
+    guess, _ = listing.guess(
+        state, 0.0, targets(race.course)[0], cubesat.thrust, parameters.listing
     )
-    guess, _ = as_published.guess(state, target, cubesat.thrust, parameters.as_published)
     _, flown = propagate_segment(
         state, guess[:6], SECONDS, cubesat, parameters.mean_motion, 1.0, 1e-12, transposed
     )
@@ -223,7 +219,7 @@ def axial_thrust(grounds: Grounds[Configuration]) -> Proof:
     if not axial:
         raise LookupError("no CubeSat has axial thrusters")
     mo = axial[0]
-    limits, deadzone = np.array(mo.axis_thrust), parameters.as_published.deadzone
+    limits, deadzone = np.array(mo.axis_thrust), parameters.listing.deadzone
     equation = np.where(np.abs(PRIMER) > deadzone, -limits * np.sign(PRIMER), 0.0)
     listing = np.array(thrust_components(PRIMER, NORM_OF_AXES, limits, deadzone))
     best = np.array(thrust_components(PRIMER, AXIS_BY_AXIS, limits, deadzone))
@@ -246,68 +242,70 @@ def _vector(values: np.ndarray) -> str:
     return "(" + ", ".join(f"{value:.4g}" for value in values) + ")"
 
 
-def equality_ranks(grounds: Grounds[Configuration], transposed: bool) -> tuple[int, int, int]:
-    """Equalities that move at a converged segment, their rank, and that of pointing.
-
-    The segment is Meeny's first by the indirect method, where all conditions hold.
-    """
-    name = "optima-scenario-1-segments.csv"
-    row = grounds.rows(name, solution=INDIRECT, cubesat="Meeny", segment=0).iloc[0]
-    if not row["converged"]:
-        raise LookupError("no converged segment")
-    z = np.r_[row[["px", "py", "pz", "pvx", "pvy", "pvz"]].to_numpy(dtype=float), row["duration_s"]]
-    return ranks_at(Parameters.from_section(grounds.section), z, transposed)
+# Options of Listing C.C, and the algorithms of `fmincon` that MathWorks documents them for.
+OPTIONS = {
+    "fmincon-enablefeasibilitymode": {"interior-point"},
+    "fmincon-subproblemalgorithm": {"interior-point"},
+    "fmincon-maxfunctionevaluations": {"active-set", "interior-point", "sqp", "sqp-legacy"},
+}
+LISTED = "listing-c-c-solvetrajectory-m"
 
 
-def ranks_at(parameters: Parameters, z: np.ndarray, transposed: bool) -> tuple[int, int, int]:
-    """Ranks of the equalities' Jacobian on Meeny's first segment, at any of its unknowns (7,)."""
+def options_without_effect(grounds: Grounds) -> Proof:
+    """Each option that the listing sets is looked up for the algorithm that it sets."""
+    algorithm = grounds.ledger.literal(f"{LISTED}/fmincon-algorithm")
+    idle = [name for name, algorithms in OPTIONS.items() if algorithm not in algorithms]
+    return Proof(
+        idle == list(OPTIONS)[:2],
+        f"{len(OPTIONS)} options with {algorithm}",
+        f"{len(OPTIONS) - len(idle)} of them without the other {len(idle)}",
+        f"of the options that the listing sets beside the algorithm '{algorithm}', the "
+        f"documentation of fmincon gives {len(idle)} to another algorithm alone; they do nothing",
+    )
+
+
+def adjoint_guess(grounds: Grounds[Configuration]) -> Proof:
+    """The listing's guess for a second segment against the adjoints at the end of the first."""
+    parameters = Parameters.from_section(grounds.section)
     race = parameters.races["scenario-1"]
     cubesat = next(c for c in race.cubesats if c.name == "Meeny")
-    law, limits = as_published.law_of(cubesat)
-    settings = parameters.as_published
-    jacobian = np.empty((as_published.EQUALITIES, len(z)))
-    fixed = (
-        np.r_[cubesat.position, np.zeros(3)],
-        rate_matrix(parameters.mean_motion),
-        costate_matrix(parameters.mean_motion, transposed),
-        law,
-        limits,
-        (settings.deadzone, settings.constraint_deadzone),
-        settings.final_hamiltonian,
-        race.course.centres[0],
-        race.course.normals[0],
-        (0.0, settings.plane),
-        False,
-        # The Hamiltonian of the quadrature itself must not blur the ranks.
-        FINE * settings.panels,
+    first, second = targets(race.course)[:2]
+    state = np.r_[cubesat.position, np.zeros(3)]
+    unknowns, _ = listing.guess(state, 0.0, first, cubesat.thrust, parameters.listing)
+    _, flown = propagate_segment(
+        state, unknowns[:6], SECONDS, cubesat, parameters.mean_motion, 1.0, 1e-12, False
     )
-    for i, value in enumerate(z):
-        step = np.zeros(len(z))
-        step[i] = 1e-4 * abs(value)
-        above, below = (as_published._functions(z + s, *fixed) for s in (step, -step))
-        # Relative to each unknown, so that the rank does not hang on units.
-        jacobian[:, i] = (above - below)[1 : 1 + as_published.EQUALITIES] / 2e-4
-    moving = int((np.abs(jacobian).max(axis=1) > 0.0).sum())
-    ranks = []
-    for rows in (jacobian, jacobian[9:]):
-        values = np.linalg.svd(rows, compute_uv=False)
-        ranks.append(int((values > RANK * values[0]).sum()))
-    return moving, ranks[0], ranks[1]
-
-
-def redundant_equalities(grounds: Grounds) -> Proof:
-    """Ranks of the equalities' Jacobian at a solution, with right costates and the listing's."""
-    moving, rank, pointing = equality_ranks(grounds, transposed=True)
-    _, slipped, _ = equality_ranks(grounds, transposed=False)
-    segments = grounds.table("as-published-scenario-1-segments.csv")
-    share = float((~segments["converged"]).mean())
+    carried = flown[-1, 6:]
+    anew, _ = listing.guess(flown[-1, :6], SECONDS, second, cubesat.thrust, parameters.listing)
+    apart = float(np.linalg.norm(anew[:6] - carried) / np.linalg.norm(carried))
     return Proof(
-        moving <= 5 and rank == 3 and pointing == 2 and slipped == 4,
-        "12 equalities",
-        f"{rank} independent ones",
-        f"at a converged segment only {moving} of the twelve rows depend on the unknowns at all, "
-        f"the three rows of pointing have rank {pointing}, and all together rank {rank}: two of "
-        f"direction, and H = -1, which the length of the costates can always meet. With the "
-        f"listing's costates H0 = Hf is no identity but a condition of its own, rank {slipped}. "
-        f"In our elastic solve of the listing {100 * share:.0f} % of the segments end unconverged",
+        apart > DRIFTING,
+        f"{_vector(carried)}",
+        f"{_vector(anew[:6])}",
+        f"after a first segment of {SECONDS:g} s with the listing's guess, Section V would begin "
+        f"the next with {_vector(carried)}; lines 46 to 53 begin it with {_vector(anew[:6])}, made "
+        f"of the direction from the last ring and of that to the next, over the speed",
+    )
+
+
+def start_of_meeny(grounds: Grounds[Configuration]) -> Proof:
+    """The draws that follow the second course, at the digits of Table 3."""
+    parameters = Parameters.from_section(grounds.section)
+    crafts = parameters.races["scenario-2"].cubesats
+    _, places = start_positions(parameters, _seeds(grounds.section)["scenario-2"], len(crafts))
+    misfits = {}
+    for craft, place in zip(crafts, places, strict=True):
+        for axis, value in (("x", place[0]), ("z", place[2])):
+            name = f"table-3/initial-position/scenario-2-{craft.name.lower()}/{axis}"
+            if not grounds.ledger.value(name).matches(float(value)):
+                misfits[f"{craft.name}'s {axis}"] = (grounds.ledger.literal(name), float(value))
+    found = misfits.get("Meeny's x", ("", np.nan))
+    return Proof(
+        list(misfits) == ["Meeny's x"],
+        f"{found[0]} m",
+        f"{found[1]:.1f} m",
+        f"of the {2 * len(crafts)} scattered coordinates of Table 3 the stream gives all to the "
+        f"digit but {', '.join(misfits) or 'none'}, printed as {found[0]} m and drawn as "
+        f"{found[1]:.3f} m: cut off, and not rounded",
+        correct=float(found[1]),
     )

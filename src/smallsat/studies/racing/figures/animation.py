@@ -1,4 +1,4 @@
-"""Films of the races: as published and optimal side by side, on one clock."""
+"""Films of the races: our solve of the listing and the optimum side by side, on one clock."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,9 +12,9 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from smallsat.studies.racing.figures.drawing import (
-    AS_PUBLISHED,
     COLOURS,
     ENLARGED,
+    LISTING,
     OPTIMAL,
     RING,
     TITLES,
@@ -54,7 +54,7 @@ def frames(course: Course, paths: pd.DataFrame, step: float) -> Iterator[bytes]:
         figure = Figure(figsize=(WIDTH / DPI, HEIGHT / DPI), dpi=DPI)
         canvas = FigureCanvasAgg(figure)
         moving: list[tuple[Any, ...]] = []
-        for place, solution in enumerate((AS_PUBLISHED, OPTIMAL)):
+        for place, solution in enumerate((LISTING, OPTIMAL)):
             axes: Any = figure.add_axes((0.5 * place, 0.06, 0.5, 0.84), projection="3d")
             way = np.vstack([course.start, course.centres, course.end])
             box(axes, way, 0.2)

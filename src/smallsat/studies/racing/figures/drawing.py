@@ -9,6 +9,8 @@ from matplotlib.axes import Axes
 
 from smallsat.drawing.style import BLUE, GREEN, PURPLE, VERMILION
 from smallsat.results import read_table
+from smallsat.studies.racing.methods.races import LISTING
+from smallsat.studies.racing.methods.races import WHOLE as OPTIMAL
 from smallsat.studies.racing.model.course import Course, course_of
 
 # The document's view of its courses (Listing C.B).
@@ -16,8 +18,7 @@ VIEW_AZIMUTH_DEG, VIEW_ELEVATION_DEG = -30.0, 35.0
 COLOURS = {"Eeny": BLUE, "Meeny": VERMILION, "Miny": GREEN, "Mo": PURPLE}
 STYLES = {"Eeny": "-", "Meeny": "--", "Miny": "-.", "Mo": ":"}
 RING = "#888888"
-AS_PUBLISHED, OPTIMAL = "as published", "whole course"
-TITLES = {AS_PUBLISHED: "as published (solve of the listing)", OPTIMAL: "optimal, whole course"}
+TITLES = {LISTING: "our solve of the listing", OPTIMAL: "optimal, whole course"}
 AXES_LABELS = ("radial (m)", "along track (m)", "cross track (m)")
 # Rings are 1 to 5 m on a course of a kilometre: drawn larger, they can be seen.
 ENLARGED = 12.0
@@ -33,13 +34,13 @@ def read_course(results: str, scenario: str) -> Course:
 
 
 def read_paths(results: str, scenario: str) -> pd.DataFrame:
-    """Trajectories of a scenario: as published and over the whole course."""
+    """Trajectories of a scenario: our solve of the listing and the whole-course optimum."""
     parts = [
         read_table(Path(results) / f"{kind}-{scenario}-trajectories.parquet")
-        for kind in ("as-published", "optima")
+        for kind in ("listing", "optima")
     ]
     table = pd.concat(parts, ignore_index=True)
-    return table[table["solution"].isin((AS_PUBLISHED, OPTIMAL))]
+    return table[table["solution"].isin((LISTING, OPTIMAL))]
 
 
 def positions(path: pd.DataFrame) -> np.ndarray:

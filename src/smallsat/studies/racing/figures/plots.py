@@ -11,9 +11,9 @@ from matplotlib.patches import Ellipse
 
 from smallsat.drawing.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION, WIDTH
 from smallsat.studies.racing.figures.drawing import (
-    AS_PUBLISHED,
     COLOURS,
     ENLARGED,
+    LISTING,
     MISSING,
     OPTIMAL,
     RING,
@@ -94,7 +94,7 @@ def course_data(course: Course) -> pd.DataFrame:
 def race_figure(course: Course, paths: pd.DataFrame, races: pd.DataFrame) -> Figure:
     """Figs. 2 and 8: all CubeSats, as published and optimal, on the same scale."""
     figure = plt.figure(figsize=(WIDTH, 4.3))
-    for place, solution in enumerate((AS_PUBLISHED, OPTIMAL), start=1):
+    for place, solution in enumerate((LISTING, OPTIMAL), start=1):
         axes = figure.add_subplot(1, 2, place, projection="3d")
         around = _course_in(axes, course, numbers=False)
         box(axes, around, 0.25)
@@ -135,7 +135,7 @@ PANELS = (
 def trajectory_figure(course: Course, paths: pd.DataFrame, cubesat: str) -> Figure:
     """Figs. 3 to 6 and 9 to 12: state, primer and thrust over time; dots where rings ask."""
     figure, grid = plt.subplots(4, 2, figsize=(WIDTH, 6.6), sharex="col")
-    for column, solution in enumerate((AS_PUBLISHED, OPTIMAL)):
+    for column, solution in enumerate((LISTING, OPTIMAL)):
         own = paths[(paths["solution"] == solution) & (paths["cubesat"] == cubesat)]
         if own.empty:
             for axes in grid[:, column]:
@@ -195,7 +195,7 @@ def segment_figure(course: Course, paths: pd.DataFrame, segment: int) -> Figure:
     view = _side_view(before, after, points_shown)
     optimal = (points_shown - before) @ view.T
     low, high = optimal.min(axis=0) - SIDE_MARGIN, optimal.max(axis=0) + SIDE_MARGIN
-    for place, solution in enumerate((AS_PUBLISHED, OPTIMAL)):
+    for place, solution in enumerate((LISTING, OPTIMAL)):
         axes = figure.add_subplot(grid[place])
         for name, colour in COLOURS.items():
             path = own[(own["solution"] == solution) & (own["cubesat"] == name)]
@@ -221,7 +221,7 @@ def segment_figure(course: Course, paths: pd.DataFrame, segment: int) -> Figure:
         axes.set_xlabel("along the segment (m)", fontsize=8)
         axes.set_ylabel("aside (m)" if place == 0 else "", fontsize=8)
         axes.tick_params(labelsize=7)
-        axes.set_title("as published" if solution == AS_PUBLISHED else "optimal")
+        axes.set_title("as published" if solution == LISTING else "optimal")
     face = figure.add_subplot(grid[2])
     _face_in(face, course, own, segment)
     handles = [
@@ -262,7 +262,7 @@ def _face_in(axes: Any, course: Course, own: pd.DataFrame, segment: int) -> None
     axes.add_patch(Ellipse((0, 0), 2 * a, 2 * b, fc="#eeeeee", ec=RING, lw=1.0))
     if not final:
         axes.add_patch(Ellipse((0, 0), 2 * min(a, b), 2 * min(a, b), fc="none", ec=RING, ls=":"))
-    for solution, marker in ((AS_PUBLISHED, "x"), (OPTIMAL, "o")):
+    for solution, marker in ((LISTING, "x"), (OPTIMAL, "o")):
         for name, colour in COLOURS.items():
             path = own[(own["solution"] == solution) & (own["cubesat"] == name)]
             if path.empty:

@@ -18,14 +18,26 @@ OTHER_ARCS = {"slow arcs": Arcs(0.3, 3.5), "fast arcs": Arcs(0.9, 1.8)}
 FIRST_SHARE, LARGEST_STEP, LEAST_STEP = 1.0 / 16.0, 0.5, 1.0 / 64.0
 
 
-def solve(program: CourseProgram, leg: Leg, cubesat: CubeSat, mean_motion: float) -> Plan:
-    """The first plan that converges; if none does, the last one, with all that was tried."""
+def solve(
+    program: CourseProgram,
+    leg: Leg,
+    cubesat: CubeSat,
+    mean_motion: float,
+    neighbour: Plan | None = None,
+) -> Plan:
+    """The first plan that converges; if none does, the last one, with all that was tried.
+
+    ``neighbour`` is the plan of a similar case, tried before the continuation.
+    """
     plan, tried = program.solve(leg, cubesat, mean_motion), [SMOOTH]
     for name, arcs in OTHER_ARCS.items():
         if plan.converged:
             break
         plan = program.solve(leg, cubesat, mean_motion, arcs=arcs)
         tried.append(name)
+    if neighbour and not plan.converged:
+        plan = program.solve(leg, cubesat, mean_motion, guess=neighbour)
+        tried.append("a similar case")
     if not plan.converged:
         plan, share = _continued(program, leg, cubesat, mean_motion)
         tried.append(f"continuation in the mean motion, which reached {100.0 * share:.0f} % of it")

@@ -107,6 +107,12 @@ class Plan:
         return float(self.durations.sum())
 
     @property
+    def delta_v(self) -> float:
+        """What the thrust adds up to, m/s."""
+        pieces = self.durations / self.controls.shape[1]
+        return float(pieces @ np.linalg.norm(self.controls, axis=2).sum(axis=1))
+
+    @property
     def converged(self) -> bool:
         """Whether the solver says so."""
         return self.solution.converged

@@ -1,7 +1,8 @@
-"""Plans and published solves flown anew, and what the rings say of them.
+"""Plans and solves of the listing flown anew, and what the rings say of them.
 
 A plan is flown by a Runge-Kutta method through all segments without a stop, while the optimiser
-used closed forms segment by segment. A published solve is flown by an adaptive method of order 8.
+used closed forms segment by segment. A solve of the listing is flown by an adaptive method of order
+8.
 """
 
 from typing import Any
@@ -12,11 +13,10 @@ from scipy.integrate import solve_ivp
 
 from smallsat.dynamics.compiled import compiled
 from smallsat.dynamics.orbits.clohessy_wiltshire import costate_transition, rate_matrix
-from smallsat.studies.racing.methods.as_published import law_of, least_time
 from smallsat.studies.racing.methods.course_program import Plan
 from smallsat.studies.racing.model.course import Course
 from smallsat.studies.racing.model.cubesat import CubeSat
-from smallsat.studies.racing.model.shooting import costate_matrix, thrust_of
+from smallsat.studies.racing.model.shooting import law_of, rate, thrust_of
 
 # Steps of a held control in a flight, more where the orbit turns by more than this, rad, in one of
 # them; the points of a segment that are kept.
@@ -102,11 +102,16 @@ def propagate_segment(
     tolerance: float,
     transposed: bool,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Times (p,) and states with costates (p, 12) of a published solve, adaptively integrated."""
+    """Times (p,) and states with costates (p, 12) of a solve of the listing, adaptively flown."""
     law, limits = law_of(cubesat)
-    a, m = rate_matrix(mean_motion), costate_matrix(mean_motion, transposed)
+
+    def moved(_, y):
+        out = np.empty(12)
+        rate(y, mean_motion, transposed, law, limits, deadzone, out)
+        return out
+
     flown = solve_ivp(
-        lambda _, y: _rate(y, a, m, law, limits, deadzone),
+        moved,
         (0.0, duration),
         np.r_[state, costate],
         method="DOP853",
@@ -117,15 +122,6 @@ def propagate_segment(
     return flown.t, flown.y.T
 
 
-@compiled
-def _rate(y, a, m, law, limits, deadzone):
-    rate = np.empty(12)
-    rate[:6] = a @ y[:6]
-    rate[3:6] += thrust_of(y[9:].copy(), law, limits, deadzone)
-    rate[6:] = m @ y[6:]
-    return rate
-
-
 def segment_table(
     number: int,
     began: float,
@@ -134,7 +130,7 @@ def segment_table(
     cubesat: CubeSat,
     deadzone: float,
 ) -> pd.DataFrame:
-    """Tidy table of a flown published solve, as `plan_table`."""
+    """Tidy table of a flown solve of the listing, as `plan_table`."""
     law, limits = law_of(cubesat)
     thrust = np.array([thrust_of(y[9:].copy(), law, limits, deadzone) for y in flown])
     return _part(number, began + times, flown[:, :6], thrust, flown[:, 6:])
@@ -171,6 +167,11 @@ def ring_rows(
             }
         )
     return rows
+
+
+def least_time(distance: float, speed: float, thrust: float) -> float:
+    """Time for a distance on a straight line at full thrust from a speed (Section IV.A)."""
+    return (-speed + float(np.sqrt(speed**2 + 2.0 * thrust * distance))) / thrust
 
 
 def minimum_cost(starts: np.ndarray, course: Course, thrust: float) -> float:

@@ -1,7 +1,7 @@
 """The races: both scenarios, by every kind of solution, as tidy tables."""
 
 import time
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
 
@@ -10,7 +10,7 @@ import pandas as pd
 
 from smallsat.evidence.not_converged import NotConverged
 from smallsat.studies.racing.configuration import Configuration
-from smallsat.studies.racing.methods import as_published, attempts, indirect
+from smallsat.studies.racing.methods import attempts, indirect
 from smallsat.studies.racing.methods.course_program import (
     LEAST_SPEED,
     CourseProgram,
@@ -26,21 +26,19 @@ from smallsat.studies.racing.methods.flight import (
     minimum_cost,
     plan_table,
     propagate_plan,
-    propagate_segment,
     residual,
     ring_rows,
-    segment_table,
 )
 from smallsat.studies.racing.model.course import Course
 from smallsat.studies.racing.model.cubesat import CubeSat
 from smallsat.studies.racing.parameters import Parameters
 
-AS_PUBLISHED = "as published"
+LISTING = "our solve of the listing"
 GREEDY = "segment by segment"
 INDIRECT = "segment by segment, indirect"
 WHOLE = "whole course"
 ANYWHERE = "whole course, rest anywhere"
-SOLUTIONS = (AS_PUBLISHED, GREEDY, INDIRECT, WHOLE, ANYWHERE)
+SOLUTIONS = (LISTING, GREEDY, INDIRECT, WHOLE, ANYWHERE)
 # The start positions lie in a plane.
 ALONG_TRACK_VARIANCE = 0.0
 # Where the indirect method fails, it starts anew from a mesh so many times finer.
@@ -136,7 +134,7 @@ def greedy(course: Course, cubesat: CubeSat, mean_motion: float, intervals: int)
     state = np.r_[cubesat.position, REST]
     plans = []
     for k in range(course.rings + 1):
-        solver, leg = _segment(course, k, state, intervals)
+        solver, leg = segment_leg(course, k, state, intervals)
         plans.append(attempts.solve(solver, leg, cubesat, mean_motion))
         if not plans[-1].converged:
             break
@@ -144,7 +142,7 @@ def greedy(course: Course, cubesat: CubeSat, mean_motion: float, intervals: int)
     return plans
 
 
-def _segment(
+def segment_leg(
     course: Course, k: int, state: np.ndarray, intervals: int
 ) -> tuple[CourseProgram, Leg]:
     """The program and the leg of segment k from a state (6,)."""
@@ -199,11 +197,12 @@ def _add_plan(
     failed = [segment_name(course, k) for k, one in enumerate(plans or [plan]) if not one.converged]
     tables.races.append(
         key
-        | _totals(
+        | totals(
             course,
             rows,
             failed,
             minimum_cost(flown[:, 0], course, cubesat.thrust),
+            plan.delta_v,
             plan.time,
             plan.solution.iterations,
             residual=residual(plan, flown, cubesat, course),
@@ -272,7 +271,7 @@ def _without_start(tables: Tables, key: dict[str, Any], course: Course) -> None:
     _add_missing(tables, key, course, 0, status)
 
 
-_TOTALS = ["cost", "time_s", "accuracy_m", "minimum_cost_s", "missed", "off_axis"]
+_TOTALS = ["cost", "time_s", "accuracy_m", "minimum_cost_s", "delta_v_m_s", "missed", "off_axis"]
 
 
 def _add_extremals(
@@ -293,7 +292,7 @@ def _add_extremals(
         intervals = section.optimum.intervals
         if not found.converged:
             intervals *= FINER
-            solver, leg = _segment(course, k, plan.starts[0], intervals)
+            solver, leg = segment_leg(course, k, plan.starts[0], intervals)
             finer = solver.refine(leg, cubesat, parameters.mean_motion, plan)
             if finer.converged:
                 found = _extremal(finer, course, k, parameters, section, cubesat)
@@ -331,8 +330,14 @@ def _add_extremals(
     tables.rings += [key | row for row in passed]
     tables.races.append(
         key
-        | _totals(
-            course, passed, failed, minimum_cost(np.array(starts), course, cubesat.thrust), total, 0
+        | totals(
+            course,
+            passed,
+            failed,
+            minimum_cost(np.array(starts), course, cubesat.thrust),
+            cubesat.thrust * total,
+            total,
+            0,
         )
     )
 
@@ -375,146 +380,24 @@ def _extremal(
     return found
 
 
-def solve_as_published(
-    parameters: Parameters,
-    tolerance: float,
-    scenario: str,
-    settings: as_published.Settings,
-    cubesats: tuple[str, ...] = (),
-) -> Tables:
-    """Every CubeSat of a scenario as the listings do it, or those named."""
-    tables = Tables()
-    race = parameters.races[scenario]
-    for cubesat in race.cubesats:
-        if not cubesats or cubesat.name in cubesats:
-            _solve_as_published(
-                tables, parameters, tolerance, scenario, settings, race.course, cubesat
-            )
-    return tables
-
-
-def _solve_as_published(
-    tables: Tables,
-    parameters: Parameters,
-    tolerance: float,
-    scenario: str,
-    settings: as_published.Settings,
-    course: Course,
-    cubesat: CubeSat,
-) -> None:
-    key = {"scenario": scenario, "cubesat": cubesat.name, "solution": AS_PUBLISHED}
-    state, began = np.r_[cubesat.position, REST], 0.0
-    previous = course.start
-    ends, starts, arrivals, costs, failed = [], [], [], [], []
-    solving, evaluations = 0.0, 0
-    for k in range(course.rings + 1):
-        final = k == course.rings
-        target = as_published.Target(
-            centre=course.end if final else course.centres[k],
-            normal=course.normals[min(k, course.rings - 1)],
-            size=0.0 if final else float(course.sizes[k]),
-            previous_centre=previous,
-            final=final,
-        )
-        clock = time.perf_counter()
-        solved = as_published.solve_segment(
-            state, target, cubesat, parameters.mean_motion, settings
-        )
-        solving += time.perf_counter() - clock
-        times, flown = propagate_segment(
-            state,
-            solved.costate,
-            solved.duration,
-            cubesat,
-            parameters.mean_motion,
-            settings.deadzone,
-            tolerance,
-            settings.transposed,
-        )
-        tables.trajectories.append(
-            segment_table(k, began, times, flown, cubesat, settings.deadzone).assign(**key)
-        )
-        tables.segments.append(
-            key
-            | {
-                "segment": k,
-                "name": segment_name(course, k),
-                "duration_s": solved.duration,
-                "converged": solved.converged,
-                "status": solved.status,
-                **dict(zip(COSTATE, solved.costate.tolist(), strict=True)),
-            }
-        )
-        if not solved.converged:
-            failed.append(segment_name(course, k))
-        evaluations += solved.evaluations
-        starts.append(state)
-        state, began, previous = flown[-1, :6], began + solved.duration, target.centre
-        ends.append(state)
-        arrivals.append(began)
-        # The printed cost is the solver's; the flight's own miss is what we count.
-        miss = 0.0 if final else float(np.linalg.norm(state[:3] - target.centre))
-        costs.append(solved.duration + miss)
-    rows = ring_rows(
-        course, np.array(ends), np.array(arrivals), parameters.plane, parameters.pointing
-    )
-    tables.rings += [key | row for row in rows]
-    tables.races.append(
-        key
-        | _totals(
-            course,
-            rows,
-            failed,
-            minimum_cost(np.array(starts), course, cubesat.thrust),
-            began,
-            evaluations,
-            cost=sum(costs),
-        )
-    )
-    tables.seconds.append(key | {"seconds": solving})
-
-
-def variants(
-    parameters: Parameters, section: Configuration, scenario: str, cubesats: tuple[str, ...] = ()
-) -> pd.DataFrame:
-    """What the printed races become where one thing is done otherwise; all else as published."""
-    base = parameters.as_published
-    changes = {
-        "as published": base,
-        "rings have their smaller axis as size": replace(base, ring_sizes=True),
-        "costates mended": replace(base, transposed=True),
-        "both": replace(base, ring_sizes=True, transposed=True),
-    } | {
-        f"constraints weigh {weight:g} at first": replace(base, first_penalty=weight)
-        for weight in section.as_published.other_first_weights
-    }
-    tolerance = section.as_published.tolerance
-    parts = []
-    for name, settings in changes.items():
-        flown = solve_as_published(parameters, tolerance, scenario, settings, cubesats)
-        table = pd.DataFrame(flown.races)
-        table["solution"] = name
-        parts.append(table.rename(columns={"solution": "variant"}))
-    return pd.concat(parts, ignore_index=True)
-
-
-def _totals(
+def totals(
     course: Course,
     rows: list[dict[str, Any]],
     failed: list[str],
     least_cost: float,
+    delta_v: float,
     time: float,
     iterations: int,
-    cost: float | None = None,
     residual: float = np.nan,
 ) -> dict[str, Any]:
-    """A race in one row; its cost is time and misses, unless a solver printed another."""
+    """A race in one row; its cost is time and misses."""
     accuracy = sum(row["miss_m"] for row in rows)
     return {
-        "cost": time + accuracy if cost is None else cost,
+        "cost": time + accuracy,
         "time_s": time,
         "accuracy_m": accuracy,
         "minimum_cost_s": least_cost,
+        "delta_v_m_s": delta_v,
         "missed": sum(row["missed"] for row in rows),
         "off_axis": sum(row["off_axis"] for row in rows),
         "rings": course.rings,

@@ -11,6 +11,7 @@ import numpy as np
 
 from smallsat.dynamics.compiled import compiled
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
+from smallsat.studies.racing.model.cubesat import CubeSat
 
 GAUSS_POINTS = 4
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(GAUSS_POINTS)
@@ -19,6 +20,13 @@ TERMS = 14
 # Laws of thrust: any direction at full thrust; along the primer with the norm of the active axes
 # (Listings C.C and C.F); each axis by itself (the minimiser over a box).
 DIRECTED, NORM_OF_AXES, AXIS_BY_AXIS = 0, 1, 2
+
+
+def law_of(cubesat: CubeSat) -> tuple[int, np.ndarray]:
+    """The listing's law of thrust and its limits (3,)."""
+    if cubesat.axis_thrust:
+        return NORM_OF_AXES, np.array(cubesat.axis_thrust)
+    return DIRECTED, np.full(3, cubesat.thrust)
 
 
 def costate_matrix(mean_motion: float, transposed: bool = True) -> np.ndarray:
@@ -71,6 +79,32 @@ def thrust_components(primer, law, limits, deadzone):
 def thrust_of(primer, law, limits, deadzone):
     """The same as a vector (3,)."""
     return np.array(thrust_components(primer, law, limits, deadzone))
+
+
+@compiled
+def rate(y, n, transposed, law, limits, deadzone, out):
+    """Rate (12,) of state and costate by Listing C.F, or with the costates' matrix transposed.
+
+    Written to ``out``; `thrust_components` has the other arguments.
+    """
+    ux, uy, uz = thrust_components(y[9:], law, limits, deadzone)
+    out[0], out[1], out[2] = y[3], y[4], y[5]
+    out[3] = 2.0 * n * y[4] + 3.0 * n * n * y[0] + ux
+    out[4] = -2.0 * n * y[3] + uy
+    out[5] = -n * n * y[2] + uz
+    out[6], out[7], out[8] = -3.0 * n * n * y[9], 0.0, n * n * y[11]
+    turn = 2.0 * n if transposed else -2.0 * n
+    out[9] = -y[6] + turn * y[10]
+    out[10] = -y[7] - turn * y[9]
+    out[11] = -y[8]
+
+
+@compiled
+def hamiltonian(y, n, law, limits, deadzone):
+    """The Hamiltonian of state and costate (12,) under a law of thrust (Eq. 14, Listing C.E)."""
+    moved = np.empty(12)
+    rate(y, n, True, law, limits, deadzone, moved)
+    return y[6:9] @ moved[:3] + y[9:] @ moved[3:6]
 
 
 @compiled

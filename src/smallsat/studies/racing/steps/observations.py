@@ -11,7 +11,7 @@ from smallsat.studies.racing.configuration import Configuration
 from smallsat.studies.racing.evidence.observations import observations, timings
 from smallsat.studies.racing.parameters import SCENARIOS
 
-KINDS = ("as-published", "optima")
+KINDS = ("listing", "optima")
 
 
 def run(step: Step[Configuration]) -> Tables:

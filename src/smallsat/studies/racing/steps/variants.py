@@ -1,8 +1,8 @@
-"""The published solve with one thing changed."""
+"""Our solve of the listing with one thing changed."""
 
 from smallsat.step import Step, Tables
 from smallsat.studies.racing.configuration import Configuration
-from smallsat.studies.racing.methods.races import variants
+from smallsat.studies.racing.methods.listing_races import variants
 from smallsat.studies.racing.parameters import SCENARIOS, Parameters
 
 # The CubeSat whose variants are flown: all are alike in this.

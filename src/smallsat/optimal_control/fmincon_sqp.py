@@ -1,0 +1,391 @@
+"""Sequential quadratic programming as MATLAB documents it for ``fmincon`` with ``sqp``.
+
+MathWorks, "Constrained Nonlinear Optimization Algorithms" and the options of ``fmincon``: BFGS of
+the Lagrangian from the identity; a step is a quadratic program within the bounds; where its
+linearised constraints contradict one another, a step subject to relaxed constraints; where a step
+makes the violation grow, a second-order correction; a merit function whose penalty follows Nocedal
+and Wright, "Numerical Optimization", ch. 18; forward differences; default tolerances and limits.
+Numbers that are documented nowhere, such as the weight of a relaxation and the factor of the
+backtracking, are constants here. The quadratic programs are solved by an interior-point method;
+MATLAB's is an active-set one, with the same minimiser.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any
+
+import clarabel
+import numpy as np
+from scipy.linalg import qr
+from scipy.sparse import csc_matrix
+
+# The defaults of step, optimality and constraint tolerance are one number, and the iterations.
+TOLERANCE, ITERATIONS = 1e-6, 400
+EPSILON = float(np.finfo(float).eps)
+DIFFERENCE = float(np.sqrt(EPSILON))
+# Sufficient decrease of the merit, and what a refused step is shortened by.
+ARMIJO, SHORTER = 1e-4, 0.7
+# The penalty is so many times what the model needs (Nocedal and Wright, eq. 18.36); it is lowered
+# only where the merit has fallen by this since the start, more after each time.
+ABOVE, LEAST_PENALTY, FALLEN = 1.5, 1e-10, 1e-4
+# Weight of a slack in the first step, against the largest slope of the objective.
+RELAXATION = 100.0
+# Share of the curvature along a step below which the update is damped (Powell).
+DAMPING = 0.2
+# Rows of the equalities count as dependent, and as contradicting one another, to these.
+DEPENDENT, CONTRADICTING = 100.0, 1e-9
+PRECISION = 1e-10
+SOLVED = (clarabel.SolverStatus.Solved, clarabel.SolverStatus.AlmostSolved)
+
+
+@dataclass(frozen=True)
+class SqpSolution:
+    """Where the iteration ended.
+
+    Attributes
+    ----------
+    variables
+        Last point (n,).
+    objective
+        There.
+    violation
+        Largest violation of a constraint there.
+    exit_flag
+        As ``fmincon`` has it: 1 first-order optimal, 2 step too small at a feasible point, 0 limits
+        of iterations or evaluations, -2 no feasible point found.
+    iterations, evaluations
+        Steps taken; evaluations of the functions, differences included.
+    """
+
+    variables: np.ndarray
+    objective: float
+    violation: float
+    exit_flag: int
+    iterations: int
+    evaluations: int
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Minimise an objective under equalities, inequalities ``<= 0`` and bounds.
+
+    Attributes
+    ----------
+    functions
+        Maps a point (n,) to the objective, the equalities and the inequalities, in this order.
+    lower, upper
+        Bounds (n,).
+    equalities
+        How many of the values after the objective are equalities; the rest are inequalities.
+    """
+
+    functions: Callable[[np.ndarray], np.ndarray]
+    lower: np.ndarray
+    upper: np.ndarray
+    equalities: int
+
+    def violations(self, values: np.ndarray) -> np.ndarray:
+        """By how much each constraint is violated."""
+        equal, unequal = np.split(values[1:], [self.equalities])
+        return np.concatenate([np.abs(equal), np.maximum(unequal, 0.0)])
+
+    def jacobian(self, x: np.ndarray, values: np.ndarray) -> np.ndarray:
+        """Forward differences, backward where a bound is in the way."""
+        slopes = np.empty((len(values), len(x)))
+        for i, here in enumerate(x):
+            step = np.copysign(DIFFERENCE * max(abs(here), 1.0), here)
+            moved = x.copy()
+            moved[i] += step
+            if not self.lower[i] <= moved[i] <= self.upper[i]:
+                moved[i], step = here - step, -step
+            slopes[:, i] = (self.functions(moved) - values) / step
+        return slopes
+
+
+@dataclass(frozen=True)
+class _Point:
+    x: np.ndarray
+    values: np.ndarray
+    jacobian: np.ndarray
+
+    def slope(self, multipliers: np.ndarray) -> np.ndarray:
+        """Slope of the Lagrangian."""
+        return self.jacobian[0] + multipliers @ self.jacobian[1:]
+
+
+@dataclass(frozen=True)
+class _Step:
+    """Direction, multipliers, change of the model, violation that the linear constraints keep."""
+
+    direction: np.ndarray
+    multipliers: np.ndarray
+    change: float
+    violation: float
+
+
+class _Merit:
+    """The objective and a penalty on the summed violation."""
+
+    def __init__(self, problem: Problem, values: np.ndarray):
+        self._violations = problem.violations
+        self.penalty, self._decreases, self._threshold = 1.0, 0, FALLEN
+        self._first, self._kept = values, 0.0
+        self.slope = 0.0
+
+    def of(self, values: np.ndarray, penalty: float | None = None) -> float:
+        weight = self.penalty if penalty is None else penalty
+        merit = float(values[0] + weight * self._violations(values).sum())
+        return merit if np.isfinite(merit) else np.inf
+
+    def prepare(self, values: np.ndarray, step: _Step, iteration: int) -> None:
+        """Give the penalty that makes the step one of descent, and the merit's slope along it."""
+        violation = float(self._violations(values).sum())
+        gain, self._kept = violation + self._kept - step.violation, step.violation
+        needed = self.penalty
+        if gain > EPSILON and step.change > 0.0:
+            needed = (ABOVE if values[0] else 1.0) * step.change / gain
+        if needed < self.penalty:
+            fallen = self.of(self._first, needed) - self.of(values, needed)
+            if fallen > self._decreases * self._threshold:
+                self._decreases += 1
+                if 2 * self._decreases > iteration + 1:
+                    self._threshold *= 10.0
+                self.penalty = max(needed, LEAST_PENALTY)
+        else:
+            self.penalty = max(needed, LEAST_PENALTY)
+        self.slope = min(step.change - self.penalty * violation, 0.0)
+
+
+def minimise(problem: Problem, guess: np.ndarray, evaluations: int) -> SqpSolution:
+    """Minimise from a guess (n,), moved into the bounds, with at most so many evaluations."""
+    count, functions = 0, problem.functions
+
+    def counted(x: np.ndarray) -> np.ndarray:
+        nonlocal count
+        count += 1
+        return functions(x)
+
+    problem = replace(problem, functions=counted)
+    x = np.clip(guess, problem.lower, problem.upper)
+    values = counted(x)
+    point = _Point(x, values, problem.jacobian(x, values))
+    merit = _Merit(problem, values)
+    feasible_to = TOLERANCE * max(1.0, _worst(problem, point))
+    curvature, multipliers = np.eye(len(x)), np.zeros(len(values) - 1)
+    flag, iterations, relaxed = None, 0, False
+    while flag is None and iterations < ITERATIONS and count < evaluations:
+        step = None if relaxed else _normal_step(problem, point, point.values, curvature)
+        relaxed = step is None
+        if step is None:
+            largest = float(np.abs(multipliers if iterations else point.jacobian[0]).max())
+            weight = largest if iterations else RELAXATION * max(1.0, largest)
+            step = _relaxed_step(problem, point, curvature, weight)
+        merit.prepare(point.values, step, iterations)
+        taken = _line_search(
+            problem, merit, point, step, None if relaxed else curvature, lambda: count < evaluations
+        )
+        if taken is None:
+            feasible = _worst(problem, point) <= feasible_to
+            if count < evaluations and (feasible or relaxed):
+                flag = 2 if feasible else -2
+            # Else a relaxed step is tried, or the evaluations are used up.
+            relaxed = True
+            continue
+        iterations += 1
+        length, x, values = taken
+        multipliers = multipliers + length * (step.multipliers - multipliers)
+        before, point = point, _Point(x, values, problem.jacobian(x, values))
+        flag, again = _exit_flag(problem, before, point, multipliers, feasible_to, relaxed)
+        relaxed = again
+        change = point.slope(multipliers) - before.slope(multipliers)
+        curvature = _damped_update(curvature, x - before.x, change)
+    return SqpSolution(
+        variables=point.x,
+        objective=float(point.values[0]),
+        violation=_worst(problem, point),
+        exit_flag=0 if flag is None else flag,
+        iterations=iterations,
+        evaluations=count,
+    )
+
+
+def _worst(problem: Problem, point: _Point) -> float:
+    return float(problem.violations(point.values).max(initial=0.0))
+
+
+def _small(step: np.ndarray, x: np.ndarray) -> bool:
+    return bool((np.abs(step) < TOLERANCE * np.maximum(1.0, np.abs(x))).all())
+
+
+def _line_search(
+    problem: Problem,
+    merit: _Merit,
+    point: _Point,
+    step: _Step,
+    curvature: np.ndarray | None,
+    more: Callable[[], bool],
+) -> tuple[float, np.ndarray, np.ndarray] | None:
+    """Length, point and values of the first step that lowers the merit enough; None without one.
+
+    Where a full step lowers the objective and raises the merit, it is corrected to second order,
+    unless it is a relaxed one, which has no ``curvature``.
+    """
+
+    def reached(move: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
+        x = np.clip(point.x + move, problem.lower, problem.upper)
+        values = problem.functions(x)
+        return x, values, merit.of(values)
+
+    here, length, bend = merit.of(point.values), 1.0, np.zeros_like(point.x)
+    x, values, there = reached(step.direction)
+    if curvature is not None and here < there < np.inf and values[0] < point.values[0]:
+        ahead = values - point.jacobian @ step.direction
+        second = _normal_step(problem, point, ahead, curvature)
+        if second is not None:
+            bend = second.direction - step.direction
+            x, values, there = reached(second.direction)
+    while there > here + length * ARMIJO * merit.slope:
+        length *= SHORTER
+        move = length * step.direction + length**2 * bend
+        if not more() or _small(move, point.x):
+            return None
+        x, values, there = reached(move)
+    return length, x, values
+
+
+def _exit_flag(
+    problem: Problem,
+    before: _Point,
+    point: _Point,
+    multipliers: np.ndarray,
+    feasible_to: float,
+    relaxed: bool,
+) -> tuple[int | None, bool]:
+    """The exit flag, None to go on; and whether a relaxed step is to be tried next."""
+    slope = point.slope(multipliers)
+    # At a bound the slope may point outwards.
+    slope = np.where(point.x <= problem.lower, np.minimum(slope, 0.0), slope)
+    slope = np.where(point.x >= problem.upper, np.maximum(slope, 0.0), slope)
+    idle = np.abs(point.values[1 + problem.equalities :])
+    unused = np.minimum(idle, idle * np.abs(multipliers[problem.equalities :])).max(initial=0.0)
+    feasible = _worst(problem, point) <= feasible_to
+    scale = max(1.0, float(np.abs(point.jacobian[0]).max()))
+    if feasible and max(np.abs(slope).max(), unused) <= TOLERANCE * scale:
+        return 1, False
+    if not _small(point.x - before.x, point.x):
+        return None, False
+    if feasible:
+        return 2, False
+    return (-2, False) if relaxed else (None, True)
+
+
+def _damped_update(b: np.ndarray, s: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Powell's damped update; the identity again where rounding leaves nothing convex."""
+    bs = b @ s
+    sbs, sy = float(s @ bs), float(s @ y)
+    if sy < DAMPING * sbs:
+        theta = (1.0 - DAMPING) * sbs / (sbs - sy)
+        y = theta * y + (1.0 - theta) * bs
+        sy = float(s @ y)
+    if not (sbs > EPSILON and sy > EPSILON and np.isfinite(y).all()):
+        return b
+    updated = b - np.outer(bs, bs) / sbs + np.outer(y, y) / sy
+    return updated if np.linalg.eigvalsh(updated)[0] > 0.0 else np.eye(len(b))
+
+
+def _normal_step(
+    problem: Problem, point: _Point, values: np.ndarray, curvature: np.ndarray
+) -> _Step | None:
+    """The step within the linearised constraints; None where they contradict one another."""
+    count, rows = problem.equalities, len(values) - 1
+    kept = _independent(point.jacobian[1 : 1 + count], -values[1 : 1 + count])
+    if kept is None:
+        return None
+    used = np.concatenate([kept, np.arange(count, rows)])
+    answer = _solve(
+        curvature, point.jacobian[0], point.jacobian[1:][used], -values[1:][used], len(kept),
+        problem.lower - point.x, problem.upper - point.x,
+    )  # fmt: skip
+    if answer is None:
+        return None
+    direction, found = answer
+    multipliers = np.zeros(rows)
+    multipliers[used] = found
+    change = float(point.jacobian[0] @ direction + 0.5 * direction @ curvature @ direction)
+    return _Step(direction, multipliers, change, 0.0)
+
+
+def _independent(a: np.ndarray, b: np.ndarray) -> np.ndarray | None:
+    """Rows of ``a x = b`` that imply the others; None if they contradict one another."""
+    if not a.any():
+        return np.arange(0) if not b.any() else None
+    _, r, order = qr(a.T, mode="economic", pivoting=True)
+    least = DEPENDENT * a.shape[1] * EPSILON * max(1.0, abs(r[0, 0]))
+    kept = np.sort(order[: int((np.abs(np.diag(r)) > least).sum())])
+    x = np.linalg.lstsq(a[kept], b[kept], rcond=None)[0]
+    return kept if np.abs(a @ x - b).max() <= CONTRADICTING * max(1.0, np.abs(b).max()) else None
+
+
+def _relaxed_step(problem: Problem, point: _Point, curvature: np.ndarray, weight: float) -> _Step:
+    """The step that pays for what the linear constraints are missed by, linearly and squared."""
+    n, rows, count = len(point.x), len(point.values) - 1, problem.equalities
+    # A slack above each constraint, and one below each equality.
+    slacks = np.hstack([-np.eye(rows), np.eye(rows)[:, :count]])
+    extra = rows + count
+    h = np.diag(np.full(n + extra, float(np.trace(curvature)) / n))
+    h[:n, :n] = curvature
+    answer = _solve(
+        h,
+        np.r_[point.jacobian[0], np.full(extra, weight)],
+        np.hstack([point.jacobian[1:], slacks]),
+        -point.values[1:],
+        count,
+        np.r_[problem.lower - point.x, np.zeros(extra)],
+        np.r_[problem.upper - point.x, np.full(extra, np.inf)],
+    )
+    if answer is None:
+        found, multipliers = np.zeros(n + extra), np.zeros(rows)
+    else:
+        found, multipliers = answer
+    direction = found[:n]
+    change = float(point.jacobian[0] @ direction + 0.5 * direction @ curvature @ direction)
+    return _Step(direction, multipliers, change, float(found[n:].sum()))
+
+
+def _solve(
+    h: np.ndarray,
+    g: np.ndarray,
+    a: np.ndarray,
+    b: np.ndarray,
+    equalities: int,
+    low: np.ndarray,
+    high: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """Minimiser of a convex quadratic program and the multipliers of its rows; None without one.
+
+    The first rows are ``a x = b``, the rest ``a x <= b``.
+    """
+    # Moderate numbers, whatever the weight of a slack.
+    weight = 1.0 / max(1.0, float(np.abs(g).max()))
+    above, below, unit = np.isfinite(high), np.isfinite(low), np.eye(len(g))
+    rows = np.vstack([a, unit[above], -unit[below]])
+    sides = np.concatenate([b, high[above], -low[below]])
+    cones = [
+        clarabel.ZeroConeT(equalities),
+        clarabel.NonnegativeConeT(len(rows) - equalities),
+    ]
+    answer = clarabel.DefaultSolver(
+        csc_matrix(np.triu(weight * h)), weight * g, csc_matrix(rows), sides, cones, _settings()
+    ).solve()
+    if answer.status not in SOLVED:
+        return None
+    return np.clip(answer.x, low, high), np.array(answer.z)[: len(a)] / weight
+
+
+@cache
+def _settings() -> Any:
+    settings = clarabel.DefaultSettings()
+    settings.verbose = False
+    settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = PRECISION
+    return settings
