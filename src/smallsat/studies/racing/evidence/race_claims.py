@@ -16,13 +16,15 @@ from smallsat.studies.racing.evidence.race_tables import (
     solved,
 )
 from smallsat.studies.racing.methods.races import GREEDY, LISTING, WHOLE
-from smallsat.studies.racing.model.course import Course
+from smallsat.studies.racing.model.course_view import (
+    VIEW_AZIMUTH_DEG,
+    VIEW_ELEVATION_DEG,
+    crossings,
+)
 from smallsat.studies.racing.model.cubesat import CubeSat
 from smallsat.studies.racing.parameters import Parameters
 
 CENTRED = 1e-6  # m
-# The document's view of its courses, degrees (Listing C.B), as MATLAB counts them.
-VIEW_AZIMUTH_DEG, VIEW_ELEVATION_DEG = -30.0, 35.0
 
 
 def _axial(parameters: Parameters) -> CubeSat:
@@ -218,27 +220,6 @@ def whole_course_remedies(grounds: Grounds) -> Judgement:
         f"shorter than segment by segment by {texts[0]} in Scenario 1 and {texts[1]} in Scenario "
         f"2. For the direction alone it is not needed: well posed, single segments keep it too",
     )
-
-
-def crossings(course: Course, azimuth: float, elevation: float) -> int:
-    """How often a course, start and end included, crosses its own line as seen from a side.
-
-    Angles in degrees as MATLAB's ``view`` has them: an azimuth of 0 looks along +y.
-    """
-    path = np.vstack([course.start, course.centres, course.end])
-    a, e = np.radians([azimuth, elevation])
-    right = np.array([np.cos(a), np.sin(a), 0.0])
-    towards = np.array([np.cos(e) * np.sin(a), -np.cos(e) * np.cos(a), np.sin(e)])
-    flat = path @ np.array([right, np.cross(towards, right)]).T
-    ways = np.diff(flat, axis=0)
-    count = 0
-    for i in range(len(ways)):
-        for j in range(i + 2, len(ways)):
-            both = np.column_stack([ways[i], -ways[j]])
-            if np.linalg.matrix_rank(both) == 2:
-                shares = np.linalg.solve(both, flat[j] - flat[i])
-                count += bool(((shares > 0.0) & (shares < 1.0)).all())
-    return count
 
 
 def second_course_loops_back(grounds: Grounds[Configuration]) -> Judgement:

@@ -18,10 +18,9 @@ from smallsat.studies.racing.figures.drawing import (
     OPTIMAL,
     RING,
     TITLES,
-    VIEW_AZIMUTH_DEG,
-    VIEW_ELEVATION_DEG,
     box,
     label_axes,
+    look,
     positions,
     ring_curve,
 )
@@ -63,7 +62,7 @@ def frames(course: Course, paths: pd.DataFrame, step: float) -> Iterator[bytes]:
             for k in range(course.rings):
                 axes.plot(*ring_curve(course, k, ENLARGED).T, color=RING, lw=0.9)
             label_axes(axes)
-            axes.view_init(VIEW_ELEVATION_DEG, VIEW_AZIMUTH_DEG)
+            look(axes)
             axes.set_title(TITLES[solution], pad=0)
             for name, colour in COLOURS.items():
                 own = paths[(paths["solution"] == solution) & (paths["cubesat"] == name)]

@@ -12,9 +12,8 @@ from smallsat.results import read_table
 from smallsat.studies.racing.methods.races import LISTING
 from smallsat.studies.racing.methods.races import WHOLE as OPTIMAL
 from smallsat.studies.racing.model.course import Course, course_of
+from smallsat.studies.racing.model.course_view import VIEW_AZIMUTH_DEG, VIEW_ELEVATION_DEG
 
-# The document's view of its courses (Listing C.B).
-VIEW_AZIMUTH_DEG, VIEW_ELEVATION_DEG = -30.0, 35.0
 COLOURS = {"Eeny": BLUE, "Meeny": VERMILION, "Miny": GREEN, "Mo": PURPLE}
 STYLES = {"Eeny": "-", "Meeny": "--", "Miny": "-.", "Mo": ":"}
 RING = "#888888"
@@ -65,15 +64,23 @@ def box(axes: Any, points: np.ndarray, margin: float = 0.05) -> None:
         (axes.set_xlim, axes.set_ylim, axes.set_zlim), middle, half, strict=True
     ):
         setter(m - h, m + h)
-    axes.set_box_aspect(half)
+    axes.set_box_aspect(half, zoom=1.05)
 
 
 def label_axes(axes: Any) -> None:
     """Names and few ticks of a 3D view."""
     for name, text in zip("xyz", AXES_LABELS, strict=True):
-        getattr(axes, f"set_{name}label")(text, fontsize=7, labelpad=6 if name == "z" else 1)
-    axes.tick_params(labelsize=6, pad=-1)
-    axes.locator_params(nbins=4)
+        getattr(axes, f"set_{name}label")(text, fontsize=6.5, labelpad=-5)
+    axes.tick_params(labelsize=5.5, pad=-3)
+    axes.locator_params(nbins=3)
+
+
+def look(axes: Any, turned: float = 0.0) -> None:
+    """The document's view, or one turned from it, degrees.
+
+    MATLAB counts azimuths from -y, matplotlib from +x.
+    """
+    axes.view_init(VIEW_ELEVATION_DEG, VIEW_AZIMUTH_DEG - 90.0 + turned)
 
 
 def zero_line(axes: Axes) -> None:

@@ -13,21 +13,20 @@ from smallsat.drawing.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERM
 from smallsat.studies.racing.figures.drawing import (
     COLOURS,
     ENLARGED,
-    LISTING,
     MISSING,
     OPTIMAL,
     RING,
     STYLES,
     TITLES,
-    VIEW_AZIMUTH_DEG,
-    VIEW_ELEVATION_DEG,
     box,
     label_axes,
+    look,
     positions,
     ring_curve,
     say_missing,
     zero_line,
 )
+from smallsat.studies.racing.methods.races import ANYWHERE, GREEDY, INDIRECT, LISTING, WHOLE
 from smallsat.studies.racing.model.course import Course
 
 AXIS_COLOURS = {"x": BLUE, "y": VERMILION, "z": GREEN}
@@ -35,14 +34,25 @@ ARROW_M = 110.0
 # Crossings farther off than this many times the ring's larger axis are drawn at the edge.
 FACE = 3.0
 # Around the optimal paths of a segment, m.
-SIDE_MARGIN = 45.0
+SIDE_MARGIN, ASTRAY_M = 50.0, 60.0
+# Length of a ring's arrow in it, m, and width of the panel, in inches.
+NORMAL_M, SIDE_WIDTH = 45.0, 4.0
+# How far from a course's line the numbers of its rings stand, m.
+NUMBER_M = 95.0
 POINTS = ["x_m", "y_m", "z_m"]
 SOLUTION_COLOURS = {
-    "as published": VERMILION,
-    "segment by segment": ORANGE,
-    "segment by segment, indirect": SKY,
-    "whole course": BLUE,
-    "whole course, rest anywhere": PURPLE,
+    LISTING: VERMILION,
+    GREEDY: ORANGE,
+    INDIRECT: SKY,
+    WHOLE: BLUE,
+    ANYWHERE: PURPLE,
+}
+SHORT = {
+    LISTING: "our listing",
+    GREEDY: "segments",
+    INDIRECT: "indirect",
+    WHOLE: "whole",
+    ANYWHERE: "anywhere",
 }
 
 
@@ -50,6 +60,9 @@ def _course_in(axes: Any, course: Course, numbers: bool = True) -> np.ndarray:
     """Draw rings, normals and order; returns what is to be in view."""
     path = np.vstack([course.start, course.centres, course.end])
     axes.plot(*path.T, color="#cccccc", lw=0.7)
+    # Numbers stand off the line, on the side away from its neighbours.
+    aside = course.centres - 0.5 * (path[:-2] + path[2:])
+    aside /= np.maximum(np.linalg.norm(aside, axis=1), 1e-9)[:, None]
     for k in range(course.rings):
         axes.plot(*ring_curve(course, k, ENLARGED).T, color=RING, lw=0.9)
         axes.quiver(
@@ -57,28 +70,45 @@ def _course_in(axes: Any, course: Course, numbers: bool = True) -> np.ndarray:
             arrow_length_ratio=0.35,
         )  # fmt: skip
         if numbers:
-            axes.text(*(course.centres[k] + [0, 0, 55]), str(k + 1), fontsize=7, color=BLACK)
-    axes.plot(*course.start[:, None], "s", color=GREEN, ms=5)
-    axes.plot(*course.end[:, None], "s", color=VERMILION, ms=5)
-    if numbers:
-        axes.text(*(course.start + np.array([0.0, 0.0, 60.0])), "start", fontsize=7, color=GREEN)
-        axes.text(*(course.end - np.array([0.0, 0.0, 120.0])), "end", fontsize=7, color=VERMILION)
+            spot = course.centres[k] + NUMBER_M * aside[k]
+            axes.text(*spot, str(k + 1), fontsize=6, ha="center", va="center")
+    axes.plot(*course.start[:, None], "s", color=GREEN, ms=4)
+    axes.plot(*course.end[:, None], "s", color=VERMILION, ms=4)
     return path
 
 
-def course_figure(course: Course) -> Figure:
-    """Figs. 1 and 7: the course from two sides, with rings in order and the way through them."""
-    figure = plt.figure(figsize=(WIDTH, 3.9))
-    for place, azimuth in ((1, VIEW_AZIMUTH_DEG), (2, VIEW_AZIMUTH_DEG + 90.0)):
-        axes = figure.add_subplot(1, 2, place, projection="3d")
+def course_figure(course: Course, paths: pd.DataFrame) -> Figure:
+    """Figs. 1 and 7: the course from two sides, and the places at the start.
+
+    Rings are numbered in order; the first view is the document's.
+    """
+    figure = plt.figure(figsize=(WIDTH, 2.9), layout="none")
+    for left, turned in ((0.035, 0.0), (0.385, 90.0)):
+        axes: Any = figure.add_axes((left, 0.02, 0.33, 0.9), projection="3d")
         path = _course_in(axes, course)
         box(axes, path)
         label_axes(axes)
-        axes.view_init(VIEW_ELEVATION_DEG, azimuth)
-    figure.suptitle(
-        f"{course.rings} rings (drawn {ENLARGED:g} times their size), arrows along the normals",
-        fontsize=9,
-    )
+        look(axes, turned)
+    near = figure.add_axes((0.845, 0.34, 0.15, 0.43))
+    for name, colour in COLOURS.items():
+        own = paths[(paths["solution"] == OPTIMAL) & (paths["cubesat"] == name)]
+        if len(own):
+            offset = positions(own)[0] - course.start
+            near.plot(offset[0], offset[2], "o", color=colour, ms=5, label=name)
+    near.plot(0.0, 0.0, "s", color=GREEN, ms=4, label="start")
+    reach = max(1.0, 1.2 * float(np.abs([*near.dataLim.intervalx, *near.dataLim.intervaly]).max()))
+    near.set_xlim(-reach, reach)
+    near.set_ylim(-reach, reach)
+    near.set_aspect("equal")
+    near.tick_params(labelsize=6)
+    near.set_xlabel("radial (m)", fontsize=7)
+    near.set_ylabel("cross track (m)", fontsize=7)
+    near.set_title("at the start", fontsize=8)
+    near.legend(loc="upper center", bbox_to_anchor=(0.45, -0.4), fontsize=6, ncols=2)
+    figure.text(
+        0.4, 0.95, f"{course.rings} rings, drawn {ENLARGED:g} times their size; arrows along the "
+        "normals; start green, end red", ha="center", fontsize=8,
+    )  # fmt: skip
     return figure
 
 
@@ -92,10 +122,10 @@ def course_data(course: Course) -> pd.DataFrame:
 
 
 def race_figure(course: Course, paths: pd.DataFrame, races: pd.DataFrame) -> Figure:
-    """Figs. 2 and 8: all CubeSats, as published and optimal, on the same scale."""
-    figure = plt.figure(figsize=(WIDTH, 4.3))
-    for place, solution in enumerate((LISTING, OPTIMAL), start=1):
-        axes = figure.add_subplot(1, 2, place, projection="3d")
+    """Figs. 2 and 8: all CubeSats, our solve of the listing and the optimum, on the same scale."""
+    figure = plt.figure(figsize=(WIDTH, 3.9), layout="none")
+    for place, solution in enumerate((LISTING, OPTIMAL)):
+        axes: Any = figure.add_axes((0.5 * place + 0.02, 0.23, 0.46, 0.7), projection="3d")
         around = _course_in(axes, course, numbers=False)
         box(axes, around, 0.25)
         limits = np.array([axes.get_xlim(), axes.get_ylim(), axes.get_zlim()])
@@ -106,17 +136,22 @@ def race_figure(course: Course, paths: pd.DataFrame, races: pd.DataFrame) -> Fig
             # Where a path leaves the view, the line breaks off.
             outside = ((points < limits[:, 0]) | (points > limits[:, 1])).any(axis=1)
             points = np.where(np.atleast_2d(outside).T, np.nan, points)
-            score = scores.loc[name]
-            label = f"cost {score['cost']:.0f}, {score['missed']:.0f} missed"
             axes.plot(
                 *points.T, color=colour, lw=1.0,
-                label=f"{name}: {MISSING if path.empty else label}",
+                label=f"{name}: {MISSING if path.empty else _score(scores, name)}",
             )  # fmt: skip
         label_axes(axes)
-        axes.view_init(VIEW_ELEVATION_DEG, VIEW_AZIMUTH_DEG)
-        axes.set_title(TITLES[solution], pad=0)
-        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.08), fontsize=7)
+        look(axes)
+        figure.text(0.25 + 0.5 * place, 0.95, TITLES[solution], ha="center", fontsize=9)
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), fontsize=6.5)
     return figure
+
+
+def _score(scores: pd.DataFrame, name: str) -> str:
+    race = scores.loc[name].to_dict()
+    failed = race["not_converged"]
+    solved = f", {failed:.0f} segments not converged" if failed else ""
+    return f"cost {race['cost']:.0f}, {race['missed']:.0f} missed{solved}"
 
 
 def path_data(paths: pd.DataFrame) -> pd.DataFrame:
@@ -127,14 +162,20 @@ def path_data(paths: pd.DataFrame) -> pd.DataFrame:
 PANELS = (
     ("position (m)", ["x_m", "y_m", "z_m"]),
     ("velocity (m/s)", ["vx_m_s", "vy_m_s", "vz_m_s"]),
+    ("position\nadjoints (s/m)", ["px", "py", "pz"]),
     ("primer (s$^2$/m)", ["pvx", "pvy", "pvz"]),
-    ("thrust (m/s$^2$)", ["ux_m_s2", "uy_m_s2", "uz_m_s2"]),
 )
+# Below them each axis of the thrust by itself: they change too often to be told apart in one.
+STRIPS = ("ux_m_s2", "uy_m_s2", "uz_m_s2")
 
 
 def trajectory_figure(course: Course, paths: pd.DataFrame, cubesat: str) -> Figure:
-    """Figs. 3 to 6 and 9 to 12: state, primer and thrust over time; dots where rings ask."""
-    figure, grid = plt.subplots(4, 2, figsize=(WIDTH, 6.6), sharex="col")
+    """Figs. 3 to 6 and 9 to 12: state, adjoints and thrust over time; dots where rings ask."""
+    rows = len(PANELS) + len(STRIPS)
+    figure, grid = plt.subplots(
+        rows, 2, figsize=(WIDTH, 8.2), sharex="col",
+        height_ratios=[1.0] * len(PANELS) + [0.45] * len(STRIPS),
+    )  # fmt: skip
     for column, solution in enumerate((LISTING, OPTIMAL)):
         own = paths[(paths["solution"] == solution) & (paths["cubesat"] == cubesat)]
         if own.empty:
@@ -142,26 +183,30 @@ def trajectory_figure(course: Course, paths: pd.DataFrame, cubesat: str) -> Figu
                 say_missing(axes)
         last = own.groupby("segment").last()
         arrivals = last["time_s"].to_numpy()[: course.rings]
-        for row, (label, names) in enumerate(PANELS):
+        for row, (_, names) in enumerate(PANELS):
             axes = grid[row, column]
             zero_line(axes)
             for name, (axis, colour) in zip(names, AXIS_COLOURS.items(), strict=True):
                 axes.plot(own["time_s"], own[name], color=colour, lw=0.9, label=axis)
-            if row < 2:
-                for i, colour in enumerate(AXIS_COLOURS.values()):
-                    if row == 0:
-                        wanted = course.centres[:, i]
-                    else:
-                        speed = last[PANELS[1][1]].pow(2).sum(axis=1).pow(0.5).to_numpy()
-                        wanted = speed[: len(arrivals)] * course.normals[: len(arrivals), i]
-                    axes.plot(
-                        arrivals, wanted[: len(arrivals)], "o", ms=3, mfc="white", mec=colour,
-                        mew=0.8,
-                    )  # fmt: skip
-            if column == 0:
-                axes.set_ylabel(label)
+        for row, (name, colour) in enumerate(zip(STRIPS, AXIS_COLOURS.values(), strict=True)):
+            axes = grid[len(PANELS) + row, column]
+            zero_line(axes)
+            axes.plot(own["time_s"], own[name], color=colour, lw=0.6)
+        speed = last[PANELS[1][1]].pow(2).sum(axis=1).pow(0.5).to_numpy()[: len(arrivals)]
+        wanted = (course.centres, speed[:, None] * course.normals[: len(speed)])
+        for row, goals in enumerate(wanted):
+            for i, colour in enumerate(AXIS_COLOURS.values()):
+                grid[row, column].plot(
+                    arrivals, goals[: len(arrivals), i], "o", ms=3, mfc="white", mec=colour,
+                    mew=0.8,
+                )  # fmt: skip
         grid[0, column].set_title(TITLES[solution])
-        grid[3, column].set_xlabel("time (s)")
+        grid[-1, column].set_xlabel("time (s)")
+    for axes, (label, _) in zip(grid[:, 0], PANELS, strict=False):
+        axes.set_ylabel(label)
+    for axes, axis in zip(grid[len(PANELS) :, 0], AXIS_COLOURS, strict=True):
+        axes.set_ylabel(f"$u_{axis}$ (m/s$^2$)", fontsize=8)
+    figure.align_ylabels(grid[:, 0])
     handles = [
         *(Line2D([], [], color=colour, label=axis) for axis, colour in AXIS_COLOURS.items()),
         Line2D(
@@ -174,19 +219,19 @@ def trajectory_figure(course: Course, paths: pd.DataFrame, cubesat: str) -> Figu
 
 def trajectory_data(paths: pd.DataFrame, cubesat: str) -> pd.DataFrame:
     """What `trajectory_figure` draws."""
-    columns = ["solution", "segment", "time_s", *(name for _, names in PANELS for name in names)]
+    names = [name for _, panel in PANELS for name in panel]
+    columns = ["solution", "segment", "time_s", *names, *STRIPS]
     return paths.loc[paths["cubesat"] == cubesat, columns]
 
 
 def segment_figure(course: Course, paths: pd.DataFrame, segment: int) -> Figure:
-    """Figs. 13 to 61: a segment as published, optimal, and the crossings seen along the normal.
+    """Figs. 13 to 61: a segment by our solve of the listing, optimal, and the crossings face on.
 
-    The paths are seen from the side on which the optimal ones bend most.
+    The paths are seen from the side on which the optimal ones bend most, both panels on one scale;
+    where a path leaves them, the line breaks off.
     """
     own = paths[paths["segment"] == segment]
     final = segment == course.rings
-    figure = plt.figure(figsize=(WIDTH, 2.7))
-    grid = figure.add_gridspec(1, 3, width_ratios=(1.2, 1.2, 1.0))
     before = course.start if segment == 0 else course.centres[segment - 1]
     after = course.end if final else course.centres[segment]
     # Without an optimal path in it, a segment is seen around its two ends.
@@ -195,8 +240,16 @@ def segment_figure(course: Course, paths: pd.DataFrame, segment: int) -> Figure:
     view = _side_view(before, after, points_shown)
     optimal = (points_shown - before) @ view.T
     low, high = optimal.min(axis=0) - SIDE_MARGIN, optimal.max(axis=0) + SIDE_MARGIN
-    for place, solution in enumerate((LISTING, OPTIMAL)):
-        axes = figure.add_subplot(grid[place])
+    # Our solve of the listing is followed aside, though not everywhere.
+    astray = np.clip((positions(own) - before) @ view[1], low[1] - ASTRAY_M, high[1] + ASTRAY_M)
+    low[1], high[1] = min(low[1], *astray), max(high[1], *astray)
+    shape = float((high - low)[1] / (high - low)[0])
+    tall = float(np.clip(0.85 * SIDE_WIDTH * shape, 0.8, 2.6))
+    figure = plt.figure(figsize=(WIDTH, 2.0 * tall + 1.3))
+    grid = figure.add_gridspec(2, 2, width_ratios=(SIDE_WIDTH, WIDTH - SIDE_WIDTH))
+    sides = [figure.add_subplot(grid[0, 0])]
+    sides.append(figure.add_subplot(grid[1, 0], sharex=sides[0], sharey=sides[0]))
+    for axes, solution in zip(sides, (LISTING, OPTIMAL), strict=True):
         for name, colour in COLOURS.items():
             path = own[(own["solution"] == solution) & (own["cubesat"] == name)]
             points = (positions(path) - before) @ view.T
@@ -209,27 +262,29 @@ def segment_figure(course: Course, paths: pd.DataFrame, segment: int) -> Figure:
                 axes.plot(*ring.T, color=colour, lw=1.2)
                 centre, along = (course.centres[k] - before) @ view.T, view @ course.normals[k]
                 axes.annotate(
-                    "", centre + 45.0 * along, centre,
-                    arrowprops={"arrowstyle": "->", "color": colour, "lw": 1.0},
+                    "", centre + NORMAL_M * along, centre, annotation_clip=False,
+                    arrowprops={"arrowstyle": "->", "color": colour, "lw": 1.0, "shrinkA": 0,
+                                "shrinkB": 0},
                 )  # fmt: skip
         for spot, shown, colour in ((before, segment == 0, GREEN), (after, final, VERMILION)):
             if shown:
                 axes.plot(*((spot - before) @ view.T), "s", color=colour, ms=5)
         axes.set_xlim(low[0], high[0])
         axes.set_ylim(low[1], high[1])
-        axes.set_aspect("equal", adjustable="datalim")
-        axes.set_xlabel("along the segment (m)", fontsize=8)
-        axes.set_ylabel("aside (m)" if place == 0 else "", fontsize=8)
+        axes.set_aspect("equal")
+        axes.set_ylabel("aside (m)", fontsize=8)
         axes.tick_params(labelsize=7)
-        axes.set_title("as published" if solution == LISTING else "optimal")
-    face = figure.add_subplot(grid[2])
+        axes.set_title(TITLES[solution])
+    sides[0].tick_params(labelbottom=False)
+    sides[1].set_xlabel("along the segment (m)", fontsize=8)
+    face = figure.add_subplot(grid[:, 1])
     _face_in(face, course, own, segment)
     handles = [
         Line2D([], [], color=colour, ls=STYLES[name], label=name)
         for name, colour in COLOURS.items()
     ]
     handles += [
-        Line2D([], [], marker="x", ls="", color=BLACK, ms=5, label="crossing, as published"),
+        Line2D([], [], marker="x", ls="", color=BLACK, ms=5, label="crossing, our listing"),
         Line2D([], [], marker="o", ls="", mfc="white", mec=BLACK, ms=4, label="crossing, optimal"),
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=6, fontsize=7)
@@ -283,7 +338,7 @@ def _face_in(axes: Any, course: Course, own: pd.DataFrame, segment: int) -> None
     axes.set_ylabel("across (m)", fontsize=7)
     axes.tick_params(labelsize=6)
     title = "around the end (1 m)" if final else f"ring {k + 1} along its normal"
-    axes.set_title(f"{title}\nat the edge: farther off", fontsize=8)
+    axes.set_title(f"{title}\n(at the edge: farther off)", fontsize=7)
 
 
 def segment_data(paths: pd.DataFrame, segment: int) -> pd.DataFrame:
@@ -307,7 +362,7 @@ def missed_figure(rings: pd.DataFrame) -> Figure:
                 for ring, missed, off in crossed[["ring", "missed", "off_axis"]].to_numpy():
                     colour = VERMILION if missed else (ORANGE if off else "#cfe8df")
                     axes.add_patch(plt.Rectangle((ring - 0.45, row - 0.42), 0.9, 0.84, fc=colour))
-                labels.append(f"{name}, {_short(solution)}")
+                labels.append(f"{name}, {SHORT[solution]}")
                 row += 1
         axes.set_yticks(range(row), labels, fontsize=6)
         axes.set_xlim(0.3, own["ring"].max() + 0.7)
@@ -325,16 +380,6 @@ def missed_figure(rings: pd.DataFrame) -> Figure:
     ]
     figure.legend(handles=handles, loc="outside upper center", ncols=3)
     return figure
-
-
-def _short(solution: str) -> str:
-    return {
-        "as published": "published",
-        "segment by segment": "segments",
-        "segment by segment, indirect": "indirect",
-        "whole course": "whole",
-        "whole course, rest anywhere": "anywhere",
-    }[solution]
 
 
 def score_figure(scores: pd.DataFrame) -> Figure:
@@ -438,24 +483,26 @@ def mesh_figure(meshes: pd.DataFrame) -> Figure:
 
 
 def thrust_figure(sweep: pd.DataFrame) -> Figure:
-    """The optimal time over thrust, and what a metre of miss could save."""
-    figure, (left, right) = plt.subplots(1, 2, figsize=(WIDTH, 2.9))
+    """The optimal time and delta-v over thrust, and what a metre of miss could save."""
+    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(WIDTH, 2.7))
     ordered = sweep.sort_values("thrust_m_s2")
-    for name in (OPTIMAL, "whole course, rest anywhere"):
+    thrusts = ordered["thrust_m_s2"]
+    for name in (OPTIMAL, ANYWHERE):
         left.loglog(
-            ordered["thrust_m_s2"], ordered[f"{name} (s)"], "o-", color=SOLUTION_COLOURS[name],
-            label=name,
+            thrusts, ordered[f"{name} (s)"], "o-", color=SOLUTION_COLOURS[name], ms=3, label=name,
         )  # fmt: skip
-    right.semilogx(ordered["thrust_m_s2"], ordered["largest_ring_multiplier_s_m"], "o-", color=BLUE)
+    middle.loglog(thrusts, ordered[f"{OPTIMAL}, delta-v (m/s)"], "o-", color=BLUE, ms=3)
+    right.semilogx(thrusts, ordered["largest_ring_multiplier_s_m"], "o-", color=BLUE, ms=3)
+    missing = ordered[ordered[f"{OPTIMAL} (s)"].isna()]["thrust_m_s2"]
+    for axes in (left, middle, right):
+        for thrust in missing:
+            axes.axvline(thrust, color=VERMILION, ls=":", lw=1.0, label="no plan found")
+        axes.set_xlabel("thrust (m/s$^2$)")
     right.axhline(1.0, color=VERMILION, ls="--", lw=1.0)
-    right.text(ordered["thrust_m_s2"].min(), 0.93, "what it costs", color=VERMILION, va="top")
+    right.text(thrusts.max(), 0.96, "what it costs", color=VERMILION, va="top", ha="right")
     right.set_ylim(0.0, max(1.1, 1.1 * ordered["largest_ring_multiplier_s_m"].max()))
     left.set_ylabel("time (s)")
-    _round_ticks(left.set_yticks, [600, 1000, 2000], ordered[f"{OPTIMAL} (s)"])
-    right.set_ylabel("most that a metre of miss saves (s/m)")
-    for axes in (left, right):
-        axes.set_xlabel("thrust (m/s$^2$)")
-        axes.set_xticks(ordered["thrust_m_s2"], [f"{u:g}" for u in ordered["thrust_m_s2"]])
-        axes.minorticks_off()
-    left.legend(fontsize=7)
+    middle.set_ylabel("delta-v (m/s)")
+    right.set_ylabel("a metre of miss saves (s)")
+    left.legend(fontsize=6, loc="lower left")
     return figure
