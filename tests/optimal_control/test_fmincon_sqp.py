@@ -14,7 +14,7 @@ def _rosenbrock(z):
 
 
 def test_the_documented_example():
-    """fmincon's page: Rosenbrock in the unit disc from the origin ends at (0.7864, 0.6177)."""
+    """Fmincon's page: Rosenbrock in the unit disc from the origin ends at (0.7864, 0.6177)."""
     found = minimise(Problem(_rosenbrock, -FREE, FREE, 0), np.zeros(2), 3000)
     assert found.exit_flag == 1
     assert found.variables == pytest.approx([0.7864, 0.6177], abs=5e-5)
@@ -44,13 +44,11 @@ def test_a_contradiction_ends_infeasible():
 
 def test_inequalities_and_bounds():
     """Nearest point to (2, 2) with x + y <= 2 and x <= 0.5: (0.5, 1.5) to 1e-5."""
-    found = minimise(
-        Problem(
-            lambda z: np.r_[np.sum((z - 2.0) ** 2), z.sum() - 2.0], -FREE, np.array([0.5, np.inf]), 0
-        ),
-        np.zeros(2),
-        3000,
-    )  # fmt: skip
+
+    def functions(z):
+        return np.r_[np.sum((z - 2.0) ** 2), z.sum() - 2.0]
+
+    found = minimise(Problem(functions, -FREE, np.array([0.5, np.inf]), 0), np.zeros(2), 3000)
     assert found.exit_flag in (1, 2)
     assert found.variables == pytest.approx([0.5, 1.5], abs=1e-5)
 

@@ -7,7 +7,16 @@ import pandas as pd
 import pytest
 
 from smallsat.results import write_table
-from smallsat.studies.racing.evidence import claims, errata
+from smallsat.studies.racing.evidence import (
+    errata,
+    own_claims,
+    printed_claims,
+    race_claims,
+    solver_claims,
+)
+from smallsat.studies.racing.evidence.scores import CUBESATS
+from smallsat.studies.racing.methods.races import ANYWHERE, GREEDY, INDIRECT, LISTING, WHOLE
+from smallsat.studies.racing.methods.simple_guesses import DIRECT, DIRECTIONS, PREVIOUS
 
 RESULTS = Path("nowhere")
 
@@ -68,47 +77,336 @@ def test_ring_size_and_axial_thrust(section, monkeypatch, grounds):
     assert not errata.axial_thrust(grounds("racing", section, RESULTS)).holds
 
 
-def test_redundancy_proof_can_fail(section, monkeypatch, tmp_path, grounds):
-    """Were the twelve rows of rank five, nothing would be redundant beyond the fixed ones."""
-    monkeypatch.setattr(errata, "equality_ranks", lambda *_, **__: (5, 5, 3))
-    table = pd.DataFrame({"converged": [True]})
-    write_table(table, tmp_path / "listing-scenario-1-segments.csv")
-    assert not errata.redundant_equalities(grounds("racing", section, tmp_path)).holds
+def test_options_without_effect(section, grounds):
+    """Both hold for sqp; with the algorithm that they belong to they would do something."""
+    assert errata.options_without_effect(grounds("racing", section, RESULTS)).holds
+    other = {"listing-c-c-solvetrajectory-m/fmincon-algorithm": "interior-point"}
+    assert not errata.options_without_effect(grounds("racing", section, RESULTS, other)).holds
 
 
-def test_printed_scores_add_up(section, grounds):
-    """The claim on cost, time and accuracy fails with one digit changed."""
-    assert claims.cost_is_time_plus_accuracy(grounds("racing", section, RESULTS)).outcome == "holds"
-    wrong = {"table-2/final-overall-cost/scenario-1-mo": "2129.008"}
-    changed = grounds("racing", section, RESULTS, wrong)
-    assert claims.cost_is_time_plus_accuracy(changed).outcome == "fails"
+def test_adjoint_guess(section, monkeypatch, grounds):
+    """Text and code differ; did the code carry the adjoints over, nothing would be proven."""
+    assert errata.adjoint_guess(grounds("racing", section, RESULTS)).holds
+    flown = errata.propagate_segment
+    carried = {}
+
+    def remembered(*arguments):
+        times, path = flown(*arguments)
+        carried["guess"] = path[-1, 6:]
+        return times, path
+
+    guess = errata.listing.guess
+
+    def carrying(*arguments):
+        unknowns, shortest = guess(*arguments)
+        return np.r_[carried.get("guess", unknowns[:6]), unknowns[6]], shortest
+
+    monkeypatch.setattr(errata, "propagate_segment", remembered)
+    monkeypatch.setattr(errata.listing, "guess", carrying)
+    assert not errata.adjoint_guess(grounds("racing", section, RESULTS)).holds
+
+
+def test_start_of_meeny(section, changed, grounds):
+    """One coordinate of eight; none with it printed as it rounds, and many with another seed."""
+    assert errata.start_of_meeny(grounds("racing", section, RESULTS)).holds
+    right = {"table-3/initial-position/scenario-2-meeny/x": "-300.0"}
+    assert not errata.start_of_meeny(grounds("racing", section, RESULTS, right)).holds
+    other = changed(section, "scenarios.scenario-2.seed", 739743)
+    assert not errata.start_of_meeny(grounds("racing", other, RESULTS)).holds
+
+
+TIME, COST, MISS, LEAST = (
+    "time-taken-to-complete-course",
+    "final-overall-cost",
+    "ring-accuracy",
+    "minimum-possible-cost",
+)
+
+
+@pytest.mark.parametrize(
+    ("claim", "digits"),
+    [
+        ("faster_with_thrust", {f"table-2/{TIME}/scenario-1-miny": "1874.768"}),
+        ("lower_minimum_cost", {f"table-2/{LEAST}/scenario-1-mo": "400.442"}),
+        ("most_accurate_in_between", {f"table-2/{MISS}/scenario-1-miny": "1.299"}),
+        ("mo_missed_rings", {f"table-2/{MISS}/scenario-1-mo": "3.692"}),
+        ("mo_slower_than_meeny", {f"table-2/{TIME}/scenario-1-mo": "1235.305"}),
+        (
+            "follows_the_course",
+            {f"table-2/{MISS}/scenario-1-{name}": "965.755" for name in ("eeny", "meeny", "miny")},
+        ),
+        ("accuracies_vary", {f"table-4/{MISS}/scenario-2-meeny": "147.883"}),
+        ("eeny_first_meeny_wins", {f"table-4/{TIME}/scenario-2-mo": "918.303"}),
+        (
+            "results_differ_by_start",
+            {f"table-4/{COST}/scenario-2-{name}": "1133.655" for name in ("eeny", "miny", "mo")},
+        ),
+        ("mo_moved_fastest", {f"table-4/{LEAST}/scenario-2-mo": "576.700"}),
+        ("thousand_times", {"section-v/accelerations-used-in-this-project/max": "0.9"}),
+        ("cost_is_time_plus_accuracy", {f"table-2/{COST}/scenario-1-mo": "2129.008"}),
+        ("printed_runs_missed", {f"table-2/{MISS}/scenario-1-miny": "91.299"}),
+    ],
+)
+def test_printed_claims_fail_with_other_digits(section, grounds, claim, digits):
+    """Each holds as printed, and fails where a digit that it rests on is another."""
+    predicate = getattr(printed_claims, claim)
+    assert predicate(grounds("racing", section, RESULTS)).outcome == "holds"
+    assert predicate(grounds("racing", section, RESULTS, digits)).outcome == "fails"
 
 
 def test_five_printed_runs_missed(section, grounds):
     """Eeny and Mo of Scenario 1, Eeny, Miny and Mo of Scenario 2."""
-    judgement = claims.printed_runs_missed(grounds("racing", section, RESULTS))
-    assert judgement.outcome == "holds"
+    judgement = printed_claims.printed_runs_missed(grounds("racing", section, RESULTS))
     for name in ("Eeny 92.1", "Mo 693.7", "Eeny 609.0", "Miny 665.8", "Mo 143.3"):
         assert name in judgement.evidence
 
 
-@pytest.mark.parametrize(
-    ("costs", "unconverged", "outcome"),
-    [
-        ([4300.0, 2800.0], 23, "holds"),
-        ([4300.0, 4300.1], 23, "fails"),
-        ([4300.0, 2800.0], 0, "fails"),
-    ],
-)
-def test_a_solve_is_erratic_where_nothing_it_should_depend_on_changes(
-    section, tmp_path, costs, unconverged, outcome, grounds
-):
-    """Costs apart and nothing converged; costs alike; or all converged."""
-    table = pd.DataFrame(
-        {"variant": ["one", "two"], "cost": costs, "missed": 9, "not_converged": unconverged,
-         "segments": 23}
-    )  # fmt: skip
-    write_table(table, tmp_path / "variants.csv")
-    assert (
-        claims.published_solve_is_erratic(grounds("racing", section, tmp_path)).outcome == outcome
+def test_the_second_course_loops_as_drawn(section, changed, grounds):
+    """In the document's view; with the courses exchanged it does not."""
+    assert race_claims.second_course_loops_back(grounds("racing", section, RESULTS)).outcome == (
+        "holds"
     )
+    seeds = [section.scenarios[name].seed for name in ("scenario-1", "scenario-2")]
+    other = changed(section, "scenarios.scenario-1.seed", seeds[1])
+    other = changed(other, "scenarios.scenario-2.seed", seeds[0])
+    assert (
+        race_claims.second_course_loops_back(grounds("racing", other, RESULTS)).outcome == "fails"
+    )
+
+
+def _races(folder, solution=WHOLE, **columns):
+    """A table of the races with equal numbers but for those given, by CubeSat or for all."""
+    rows = [
+        {"scenario": scenario, "cubesat": name, "solution": solution, "time_s": 1000.0 + 10.0 * k,
+         "cost": 1000.0, "accuracy_m": 0.0, "missed": 0, "off_axis": 0, "rings": 22, "segments": 23,
+         "not_converged": 0, "residual": 1e-9}
+        for scenario in ("scenario-1", "scenario-2") for k, name in enumerate(CUBESATS)
+    ]  # fmt: skip
+    write_table(pd.DataFrame(rows).assign(**columns), folder / "races.csv")
+
+
+def _outcome(claim, section, folder, grounds):
+    return claim(grounds("racing", section, folder)).outcome
+
+
+@pytest.mark.parametrize(("off", "outcome"), [(20, "holds"), (11, "fails")])
+def test_direction_is_the_trouble_of_most_crossings(section, tmp_path, grounds, off, outcome):
+    """More than half of them, or not."""
+    _races(tmp_path, LISTING, off_axis=off)
+    assert _outcome(solver_claims.direction_is_the_trouble, section, tmp_path, grounds) == outcome
+
+
+@pytest.mark.parametrize(("failed", "outcome"), [(0, "holds"), (1, "fails")])
+def test_seven_numbers_need_every_segment(section, tmp_path, grounds, failed, outcome):
+    """One segment without a root, and they do not suffice."""
+    _races(tmp_path, INDIRECT, not_converged=failed)
+    assert _outcome(solver_claims.seven_numbers_suffice, section, tmp_path, grounds) == outcome
+
+
+@pytest.mark.parametrize(("missed", "outcome"), [(0, "fails"), (1, "holds")])
+def test_attitude_control_is_critical_only_where_rings_are_missed(
+    section, tmp_path, grounds, missed, outcome
+):
+    """A ring that Mo could not pass would bear the claim out."""
+    _races(tmp_path, missed=missed)
+    assert _outcome(race_claims.mo_can_pass, section, tmp_path, grounds) == outcome
+
+
+@pytest.mark.parametrize(("times", "outcome"), [([30.0, 20.0], "holds"), ([20.0, 30.0], "fails")])
+def test_faster_with_thrust_looks_at_what_was_solved(section, tmp_path, grounds, times, outcome):
+    """A thrust without a plan is said and passed over."""
+    table = pd.DataFrame(
+        {"thrust_m_s2": [0.0005, 0.1, 0.2], f"{WHOLE} (s)": [np.nan, *times]}
+    )  # fmt: skip
+    write_table(table, tmp_path / "thrust-sweep.csv")
+    judgement = race_claims.faster_with_thrust(grounds("racing", section, tmp_path))
+    assert judgement.outcome == outcome
+    assert "with 0.0005 m/s^2 no plan" in judgement.evidence
+
+
+@pytest.mark.parametrize(("missed", "outcome"), [(0, "holds"), (1, "fails")])
+def test_racing_is_viable_where_plans_pass(section, tmp_path, grounds, missed, outcome):
+    """With a ring missed it would not be."""
+    _races(tmp_path, missed=missed)
+    shares = {
+        f"{kind}_{unit}": [1.0, 2.0]
+        for kind in ("cold_gas", "monopropellant", "field_emission") for unit in ("pct", "w_kg")
+    }  # fmt: skip
+    table = pd.DataFrame(
+        {"cubesat": ["Eeny", "any"], "thrust_m_s2": 0.1, "time_s": 1e3, "delta_v_m_s": 1e2} | shares
+    )
+    write_table(table, tmp_path / "propellant.csv")
+    assert _outcome(race_claims.racing_is_viable, section, tmp_path, grounds) == outcome
+
+
+def _variants(folder, off=(20, 16), calls=(30000, 15000), failed=23, flights=(100.0, 300.0)):
+    names = ["as listed", "both", "guess from the direct method"]
+    names += ["both, guess from the direct method", "flights to 1e-11"]
+    table = pd.DataFrame(
+        {"variant": names, "off_axis": [off[0], 15, off[1], 10, 20], "rings": 22, "segments": 23,
+         "iterations": [calls[0], 1, calls[1], 1, 1], "not_converged": failed, "time_s": 900.0,
+         "accuracy_m": [flights[0], 1.0, 1.0, 1.0, flights[1]]}
+    )  # fmt: skip
+    write_table(table, folder / "variants.csv")
+
+
+@pytest.mark.parametrize(("off", "outcome"), [((20, 16), "holds"), ((16, 16), "fails")])
+def test_the_guess_is_a_cause_where_a_better_one_helps(section, tmp_path, grounds, off, outcome):
+    """Fewer crossings off the normal, or as many."""
+    _races(tmp_path, INDIRECT)
+    _variants(tmp_path, off=off)
+    assert _outcome(solver_claims.guess_is_a_cause, section, tmp_path, grounds) == outcome
+
+
+@pytest.mark.parametrize(("calls", "outcome"), [((30, 15), "holds"), ((30, 29), "fails")])
+def test_the_guess_explains_the_run_time(section, tmp_path, grounds, calls, outcome):
+    """Clearly fewer evaluations from a better one, or not."""
+    _variants(tmp_path, calls=calls)
+    assert _outcome(solver_claims.guess_explains_run_time, section, tmp_path, grounds) == outcome
+
+
+@pytest.mark.parametrize(
+    ("failed", "flights", "outcome"),
+    [(23, (100.0, 300.0), "holds"), (0, (100.0, 300.0), "fails"), (23, (100.0, 101.0), "fails")],
+)
+def test_the_listing_stays_unconverged(section, tmp_path, grounds, failed, flights, outcome):
+    """Unconverged and ending elsewhere; converged; or ending at the same place."""
+    _variants(tmp_path, failed=failed, flights=flights)
+    assert _outcome(solver_claims.listing_stays_unconverged, section, tmp_path, grounds) == outcome
+
+
+def _guesses(folder, directions, previous, sizes=(0.01, 5.0), angles=(10.0, 120.0)):
+    rows = [
+        (kind, converged, sizes[k % 2], angles[k % 2])
+        for kind, share in ((DIRECT, 1.0), (DIRECTIONS, directions), (PREVIOUS, previous))
+        for k, converged in enumerate(np.arange(10) < 10 * share)
+    ]
+    columns = ["guess", "converged", "size_against_right", "angle_to_right_deg"]
+    write_table(pd.DataFrame(rows, columns=columns), folder / "simple-guesses.csv")
+
+
+@pytest.mark.parametrize(
+    ("shares", "outcome"), [((0.2, 0.1), "holds"), ((0.8, 0.1), "fails"), ((0.2, 0.5), "fails")]
+)
+def test_no_easy_guess(section, tmp_path, grounds, shares, outcome):
+    """A simple guess that solves half of the segments is an easy one."""
+    _guesses(tmp_path, *shares)
+    assert _outcome(solver_claims.no_easy_guess, section, tmp_path, grounds) == outcome
+
+
+@pytest.mark.parametrize(
+    ("sizes", "angles", "outcome"),
+    [((0.01, 5.0), (10.0, 120.0), "holds"), ((0.5, 2.0), (10.0, 120.0), "fails"),
+     ((0.01, 5.0), (10.0, 20.0), "fails")],
+)  # fmt: skip
+def test_previous_adjoints(section, tmp_path, grounds, sizes, angles, outcome):
+    """Orders of magnitude off and turned about, or only one of it."""
+    _guesses(tmp_path, 0.0, 0.0, sizes, angles)
+    claim = solver_claims.previous_adjoints_are_far_off
+    assert _outcome(claim, section, tmp_path, grounds) == outcome
+
+
+def test_the_time_guess_is_the_texts_with_a_multiple_of_one(section, changed, grounds):
+    """As the text has it; the listing takes ten times as much."""
+    claim = solver_claims.guess_is_ten_times_that
+    assert _outcome(claim, section, RESULTS, grounds) == "fails"
+    other = changed(section, "listing.duration_multiple", 1.0)
+    assert _outcome(claim, other, RESULTS, grounds) == "holds"
+
+
+def test_redundancy_can_fail(section, monkeypatch, grounds):
+    """Were the twelve rows of rank five, nothing would be redundant beyond the fixed ones."""
+    monkeypatch.setattr(solver_claims, "equality_ranks", lambda *_, **__: (5, 5, 3))
+    claim = solver_claims.equalities_are_redundant
+    assert _outcome(claim, section, RESULTS, grounds) == "fails"
+
+
+TRACE = ["time_s", "x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s", "ux_m_s2", "uy_m_s2",
+         "uz_m_s2", "px", "py", "pz", "pvx", "pvy", "pvz"]  # fmt: skip
+
+
+def _listing_paths(parameters, folder, swing=1.0, kick=0.0, thrust=0.1):
+    """Paths of the listing's law for two segments of Mo, made by the exponential of its matrix."""
+    from scipy.linalg import expm
+
+    from smallsat.studies.racing.model.shooting import costate_matrix
+
+    matrix = costate_matrix(parameters.mean_motion, transposed=False)
+    rows = []
+    for segment in range(2):
+        first = np.array([0.01, -0.02, 0.01, 1.0, 2.0, -1.0])
+        for k in range(11):
+            costates = expm(matrix * 10.0 * k) @ first + kick * (k == 5)
+            sign = swing * (-1.0) ** k
+            row = [100.0 * segment + 10.0 * k, *np.zeros(6), *(thrust * sign * np.ones(3))]
+            rows.append([LISTING, "Mo", segment, *row, *costates])
+    table = pd.DataFrame(rows, columns=["solution", "cubesat", "segment", *TRACE])
+    write_table(table, folder / "listing-scenario-1-trajectories.parquet")
+
+
+@pytest.mark.parametrize(("kick", "outcome"), [(0.0, "holds"), (0.1, "fails")])
+def test_adjoints_are_smooth(section, parameters, tmp_path, grounds, kick, outcome):
+    """The exponential of their matrix is; with a kick they are not."""
+    _listing_paths(parameters, tmp_path, kick=kick)
+    assert _outcome(solver_claims.adjoints_are_smooth, section, tmp_path, grounds) == outcome
+
+
+@pytest.mark.parametrize(("swing", "outcome"), [(1.0, "holds"), (0.01, "fails")])
+def test_control_varies_wildly(section, parameters, tmp_path, grounds, swing, outcome):
+    """From limit to limit in each segment, or hardly."""
+    _listing_paths(parameters, tmp_path, swing=swing)
+    assert _outcome(solver_claims.control_varies_wildly, section, tmp_path, grounds) == outcome
+
+
+@pytest.mark.parametrize(("thrust", "outcome"), [(0.0, "holds"), (0.1, "fails")])
+def test_thrust_is_forced_to_zero(section, parameters, tmp_path, grounds, thrust, outcome):
+    """Where it vanishes, or nowhere."""
+    _listing_paths(parameters, tmp_path, thrust=thrust)
+    assert _outcome(solver_claims.thrust_is_forced_to_zero, section, tmp_path, grounds) == outcome
+
+
+@pytest.mark.parametrize(("last", "outcome"), [(1e-6, "holds"), (0.5, "fails")])
+def test_position_adjoints_vanish_at_rest(section, tmp_path, grounds, last, outcome):
+    """Zero at the end, or not."""
+    table = pd.DataFrame(
+        {"solution": ANYWHERE, "cubesat": "Eeny", "segment": [0, 1], "px": [1.0, last], "py": 0.0,
+         "pz": 0.0}
+    )  # fmt: skip
+    write_table(table, tmp_path / "optima-scenario-1-trajectories.parquet")
+    claim = solver_claims.position_adjoints_vanish_at_rest
+    assert _outcome(claim, section, tmp_path, grounds) == outcome
+
+
+@pytest.mark.parametrize(("theirs", "outcome"), [(0.9, "holds"), (0.0, "fails")])
+def test_transversality_left_to_the_cost(section, tmp_path, monkeypatch, grounds, theirs, outcome):
+    """A primer along the normal in the listing's solve, or none."""
+    shares = {GREEDY: 1e-5, LISTING: theirs}
+    monkeypatch.setattr(solver_claims, "primer_at_rings", lambda _, __, name: shares[name])
+    claim = solver_claims.transversality_left_to_the_cost
+    assert _outcome(claim, section, tmp_path, grounds) == outcome
+
+
+@pytest.mark.parametrize(("multiplier", "outcome"), [(0.3, "holds"), (1.2, "fails")])
+def test_the_penalty_is_exact_below_its_weight(section, tmp_path, grounds, multiplier, outcome):
+    """A multiplier above one would pay for a miss."""
+    table = pd.DataFrame(
+        {"cubesat": CUBESATS, "intervals": 20, "time_s": 1.0,
+         "largest_ring_multiplier_s_m": multiplier}
+    )  # fmt: skip
+    write_table(table, tmp_path / "meshes.csv")
+    assert _outcome(own_claims.penalty_is_exact, section, tmp_path, grounds) == outcome
+
+
+@pytest.mark.parametrize(("multiplier", "outcome"), [(0.4, "fails"), (1.2, "holds")])
+def test_accuracy_is_compared_over_the_documents_thrusts(
+    section, tmp_path, grounds, multiplier, outcome
+):
+    """A multiplier above one among them would make a miss pay; below them it is only said."""
+    table = pd.DataFrame(
+        {"thrust_m_s2": [0.001, 0.1, 0.5], f"{WHOLE} (s)": 1.0, f"{WHOLE}, residual": 1e-9,
+         "largest_ring_multiplier_s_m": [7.0, multiplier, 0.1]}
+    )  # fmt: skip
+    write_table(table, tmp_path / "thrust-sweep.csv")
+    judgement = race_claims.no_thrust_is_best_for_accuracy(grounds("racing", section, tmp_path))
+    assert judgement.outcome == outcome
+    assert "m/s^2 or less it would save more" in judgement.evidence

@@ -5,28 +5,34 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from smallsat.studies.racing.evidence.errata import ranks_at
-from smallsat.studies.racing.methods.as_published import Target, guess, least_time, solve_segment
-from smallsat.studies.racing.methods.flight import propagate_segment
+from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
+from smallsat.studies.racing.evidence.solver_claims import ranks_at
+from smallsat.studies.racing.methods.flight import least_time, propagate_segment
+from smallsat.studies.racing.methods.listing import guess, solve_segment
+from smallsat.studies.racing.methods.listing_races import targets
+from smallsat.studies.racing.methods.ode45 import end_of_flight
 from smallsat.studies.racing.model.shooting import (
     AXIS_BY_AXIS,
     DIRECTED,
     NORM_OF_AXES,
     costate_matrix,
     end_of_segment,
+    hamiltonian,
+    law_of,
+    rate,
     thrust_components,
+    thrust_of,
 )
 
 LIMITS = np.full(3, 0.1667)
 PRIMERS = np.random.default_rng(7).normal(size=(50, 3)) * 2.0
 
 
-def _first(parameters):
+def _first(parameters, name="Miny"):
+    """State at the start, first target, and CubeSat of Scenario 1."""
     race = parameters.races["scenario-1"]
-    craft = race.cubesats[2]
-    course = race.course
-    target = Target(course.centres[0], course.normals[0], 5.0, course.start, False)
-    return np.r_[craft.position, np.zeros(3)], target, craft
+    craft = next(one for one in race.cubesats if one.name == name)
+    return np.r_[craft.position, np.zeros(3)], targets(race.course)[0], craft
 
 
 def test_least_time_is_that_of_constant_acceleration():
@@ -39,7 +45,7 @@ def test_least_time_is_that_of_constant_acceleration():
 def test_guess_is_the_listings(parameters):
     """At rest both parts are unit vectors; the duration is ten times the least."""
     state, target, craft = _first(parameters)
-    start, shortest = guess(state, target, craft.thrust, parameters.as_published)
+    start, shortest = guess(state, 0.0, target, craft.thrust, parameters.listing)
     assert np.linalg.norm(start[:3]) == pytest.approx(1.0)
     assert np.linalg.norm(start[3:6]) == pytest.approx(1.0)
     assert start[6] == pytest.approx(10.0 * shortest)
@@ -67,10 +73,8 @@ def test_no_thrust_where_no_axis_is_active():
 def test_quadrature_is_the_flight(parameters, transposed):
     """A segment by Gauss points against an adaptive method of order 8: 1e-5 m after 100 s."""
     state, target, craft = _first(parameters)
-    start, _ = guess(state, target, craft.thrust, parameters.as_published)
+    start, _ = guess(state, 0.0, target, craft.thrust, parameters.listing)
     costate = start[:6] * np.repeat([0.02, 1.0], 3)
-    from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
-
     x, p = end_of_segment(
         state, costate, 100.0, rate_matrix(parameters.mean_motion),
         costate_matrix(parameters.mean_motion, transposed), DIRECTED, np.full(3, craft.thrust),
@@ -83,30 +87,90 @@ def test_quadrature_is_the_flight(parameters, transposed):
     assert p == pytest.approx(flown[-1, 6:], rel=1e-9)
 
 
-def test_the_same_solve_twice(parameters):
-    """Not a bit differs."""
+@pytest.mark.parametrize("name", ["Miny", "Mo"])
+@pytest.mark.parametrize("transposed", [True, False])
+def test_the_rate_is_that_of_the_matrices(parameters, name, transposed):
+    """State and costate move as their matrices have it, to rounding."""
+    _, _, craft = _first(parameters, name)
+    law, limits = law_of(craft)
+    y, out = np.random.default_rng(1).normal(size=12) * 3.0, np.empty(12)
+    rate(y, parameters.mean_motion, transposed, law, limits, 1.0, out)
+    push = np.r_[np.zeros(3), thrust_of(y[9:].copy(), law, limits, 1.0)]
+    assert out[:6] == pytest.approx(rate_matrix(parameters.mean_motion) @ y[:6] + push)
+    assert out[6:] == pytest.approx(costate_matrix(parameters.mean_motion, transposed) @ y[6:])
+    u = push[3:]
+    wanted = y[6:] @ (rate_matrix(parameters.mean_motion) @ y[:6]) + y[9:] @ u
+    assert hamiltonian(y, parameters.mean_motion, law, limits, 1.0) == pytest.approx(wanted)
+
+
+def test_ode45_ends_where_another_method_does(parameters):
+    """A listed segment by an adaptive method of order 8: 1e-7 m; steps as order 5 asks for."""
     state, target, craft = _first(parameters)
-    solves = [
-        solve_segment(state, target, craft, parameters.mean_motion, parameters.as_published)
-        for _ in range(2)
-    ]
-    assert np.array_equal(solves[0].costate, solves[1].costate)
-    assert solves[0].duration == solves[1].duration
+    start, _ = guess(state, 0.0, target, craft.thrust, parameters.listing)
+    law, limits = law_of(craft)
+
+    def flown(tolerance):
+        return end_of_flight(
+            np.r_[state, start[:6]], 0.0, start[6], parameters.mean_motion, False, law, limits,
+            1.0, tolerance,
+        )  # fmt: skip
+
+    _, other = propagate_segment(
+        state, start[:6], start[6], craft, parameters.mean_motion, 1.0, 1e-13, False
+    )
+    (end, fine), (_, coarse) = flown(1e-12), flown(1e-7)
+    assert np.abs(end[:3] - other[-1, :3]).max() < 1e-7
+    assert fine / coarse == pytest.approx(10.0, rel=0.3)
 
 
-def test_the_equalities_are_dependent_everywhere_and_ours_bears_them(parameters):
+def test_ode45_takes_a_jump_of_the_thrust(parameters):
+    """Where an axis is switched the step shrinks until it is met; the flight goes on: 1e-6 m."""
+    state, target, craft = _first(parameters, "Mo")
+    start, _ = guess(state, 0.0, target, craft.thrust, parameters.listing)
+    law, limits = law_of(craft)
+    end, _ = end_of_flight(
+        np.r_[state, start[:6]], 0.0, 60.0, parameters.mean_motion, False, law, limits, 1.0, 1e-12
+    )
+    _, other = propagate_segment(
+        state, start[:6], 60.0, craft, parameters.mean_motion, 1.0, 1e-13, False
+    )
+    assert np.abs(end[:3] - other[-1, :3]).max() < 1e-6
+
+
+def test_the_same_solve_twice(parameters):
+    """Not a bit differs; bounds and limits of the listing are kept."""
+    state, target, craft = _first(parameters)
+    few = replace(parameters.listing, evaluations=200)
+    one, other = (
+        solve_segment(state, 0.0, target, craft, parameters.mean_motion, few) for _ in range(2)
+    )
+    assert np.array_equal(one.costate, other.costate)
+    assert one.arrival == other.arrival
+    _, shortest = guess(state, 0.0, target, craft.thrust, few)
+    assert one.arrival >= shortest
+    assert np.abs(one.costate).max() <= few.costate_bound
+    assert one.evaluations < 200 + 8
+
+
+def test_the_time_of_a_segment_is_that_of_the_race(parameters):
+    """A segment that begins later arrives later by as much, within what its last bits change."""
+    state, target, craft = _first(parameters)
+    early, _ = guess(state, 0.0, target, craft.thrust, parameters.listing)
+    late, _ = guess(state, 100.0, target, craft.thrust, parameters.listing)
+    assert late[6] - early[6] == pytest.approx(100.0)
+    few = replace(parameters.listing, evaluations=50)
+    solved = solve_segment(state, 100.0, target, craft, parameters.mean_motion, few)
+    assert solved.arrival > 100.0
+
+
+def test_the_equalities_are_dependent_everywhere(parameters):
     """Rank 3 of twelve rows at the guess, and at other points: no solution makes them so.
 
     Seven rows never move, H0 = Hf is an identity along any extremal, and of a direction in space
-    two components are free. Each step of ours has a solution nevertheless.
+    two components are free.
     """
-    state, target, _ = _first(parameters)
-    meeny = next(c for c in parameters.races["scenario-1"].cubesats if c.name == "Meeny")
-    state[:3] = meeny.position
-    start, _ = guess(state, target, meeny.thrust, parameters.as_published)
+    state, target, meeny = _first(parameters, "Meeny")
+    start, _ = guess(state, 0.0, target, meeny.thrust, parameters.listing)
     for z in (start, start * [1.0, 0.7, 1.3, 1.2, 0.9, 0.8, 0.5]):
         moving, rank, pointing = ranks_at(parameters, z, transposed=True)
         assert (moving <= 5, rank, pointing) == (True, 3, 2)
-    settings = replace(parameters.as_published, transposed=True)
-    found = solve_segment(state, target, meeny, parameters.mean_motion, settings)
-    assert found.status != "no step" and np.isfinite(found.costate).all()

@@ -62,15 +62,27 @@ def tide_at(place: np.ndarray, mean_motion: float) -> float:
 
 
 def no_thrust_is_best_for_accuracy(grounds: Grounds) -> Judgement:
-    """The misses of the optimum are compared over thrusts."""
-    sweep = solved(grounds.table("thrust-sweep.csv"), f"{WHOLE} (s)")
-    worst = float(sweep[f"{WHOLE}, residual"].max())
-    multiplier = float(sweep["largest_ring_multiplier_s_m"].max())
+    """The misses of the optimum are compared over the thrusts that the document uses."""
+    sweep = solved(grounds.table("thrust-sweep.csv"), f"{WHOLE} (s)").sort_values("thrust_m_s2")
+    least, most = (
+        grounds.ledger.value(f"section-v/accelerations-used-in-this-project/{bound}").value
+        for bound in ("min", "max")
+    )
+    used = complete(sweep[sweep["thrust_m_s2"].between(least, most)], f"{WHOLE} (s)")
+    worst = float(used[f"{WHOLE}, residual"].max())
+    multiplier = float(used["largest_ring_multiplier_s_m"].max())
+    paying = sweep[sweep["largest_ring_multiplier_s_m"] >= 1.0]["thrust_m_s2"]
+    text = (
+        f". With {paying.max():g} m/s^2 or less it would save more than it costs: the weaker, the "
+        f"less accurate, and no optimum in between"
+        if len(paying)
+        else ""
+    )
     return judged(
         not (worst < CENTRED and multiplier < 1.0),
-        f"with every thrust that has a plan the rings are crossed at their centres, to "
+        f"with thrusts of {least:g} to {most:g} m/s^2 the rings are crossed at their centres, to "
         f"{worst:.0e} m, and a metre of miss would save {multiplier:.2f} s at most while it costs "
-        f"1 s: the best accuracy is the same, 0, for all",
+        f"1 s: the best accuracy is the same, 0, for all{text}",
     )
 
 

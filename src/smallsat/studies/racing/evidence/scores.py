@@ -4,7 +4,7 @@ import pandas as pd
 
 from smallsat.evidence.ledger import Ledger
 from smallsat.studies.racing.evidence.observations import QUANTITIES, TABLES
-from smallsat.studies.racing.methods.races import SOLUTIONS
+from smallsat.studies.racing.methods.races import LISTING, SOLUTIONS
 
 CUBESATS = ("Eeny", "Meeny", "Miny", "Mo")
 SCENARIO_NAMES = {"scenario-1": "Scenario 1", "scenario-2": "Scenario 2"}
@@ -66,3 +66,22 @@ def missed_table(rings: pd.DataFrame) -> pd.DataFrame:
             }
         )
     return pd.DataFrame(rows)
+
+
+def nearness_table(races: pd.DataFrame, printed: pd.DataFrame) -> pd.DataFrame:
+    """How near our solve of the listing comes to each printed time, cost, miss and minimum cost.
+
+    One row a race and CubeSat with both numbers of each quantity, and ours over the printed one.
+    """
+    ours = races[races["solution"] == LISTING].set_index(["scenario", "cubesat"])
+    theirs = printed.set_index(["scenario", "cubesat"])
+    table = pd.DataFrame(
+        {"race": [SCENARIO_NAMES[scenario] for scenario, _ in theirs.index]}, index=theirs.index
+    )
+    for column in QUANTITIES.values():
+        table[f"{column}, printed"] = theirs[column]
+        table[f"{column}, ours"] = ours[column]
+        table[f"{column}, ratio"] = ours[column] / theirs[column]
+    table["not_converged"] = ours["not_converged"]
+    table["segments"] = ours["segments"]
+    return table.reset_index("cubesat").reset_index(drop=True)

@@ -492,15 +492,16 @@ def thrust_figure(sweep: pd.DataFrame) -> Figure:
             thrusts, ordered[f"{name} (s)"], "o-", color=SOLUTION_COLOURS[name], ms=3, label=name,
         )  # fmt: skip
     middle.loglog(thrusts, ordered[f"{OPTIMAL}, delta-v (m/s)"], "o-", color=BLUE, ms=3)
-    right.semilogx(thrusts, ordered["largest_ring_multiplier_s_m"], "o-", color=BLUE, ms=3)
+    right.loglog(thrusts, ordered["largest_ring_multiplier_s_m"], "o-", color=PURPLE, ms=3)
     missing = ordered[ordered[f"{OPTIMAL} (s)"].isna()]["thrust_m_s2"]
     for axes in (left, middle, right):
         for thrust in missing:
             axes.axvline(thrust, color=VERMILION, ls=":", lw=1.0, label="no plan found")
         axes.set_xlabel("thrust (m/s$^2$)")
     right.axhline(1.0, color=VERMILION, ls="--", lw=1.0)
-    right.text(thrusts.max(), 0.96, "what it costs", color=VERMILION, va="top", ha="right")
-    right.set_ylim(0.0, max(1.1, 1.1 * ordered["largest_ring_multiplier_s_m"].max()))
+    right.text(
+        thrusts.max(), 1.1, "what it costs", color=VERMILION, va="bottom", ha="right", fontsize=7
+    )  # fmt: skip
     left.set_ylabel("time (s)")
     middle.set_ylabel("delta-v (m/s)")
     right.set_ylabel("a metre of miss saves (s)")
