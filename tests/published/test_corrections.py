@@ -17,7 +17,7 @@ NUMBERS = {
         "table-3-time-optimal", "table-3-eigenaxis", "table-2-velocity-sign",
         "eigenaxis-peak-momentum", "guidance-share",
     ),
-    "racing": ("start-covariance", "start-ring-comment"),
+    "racing": ("start-covariance", "start-ring-comment", "start-of-meeny"),
     "rendezvous": ("initial-distance",),
 }  # fmt: skip
 

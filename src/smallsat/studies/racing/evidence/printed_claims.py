@@ -77,7 +77,7 @@ def follows_the_course(grounds: Grounds[Configuration]) -> Judgement:
     misses = table["accuracy_m"] / table["scenario"].map(rings)
     spacing = parameters.ranges.distance[0]
     near = misses < MASSIVE * spacing
-    worst = table.loc[misses.idxmax()]
+    worst = table.iloc[int(misses.argmax())]
     return judged(
         near.sum() > len(near) / 2,
         f"in {near.sum()} of {len(near)} printed runs the misses are less than "
