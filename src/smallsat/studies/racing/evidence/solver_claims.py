@@ -192,7 +192,7 @@ def guess_alone_is_a_cause(grounds: Grounds) -> Judgement:
     return Judgement(
         found.outcome,
         f"Meeny's crossings off the normal, the direct method's costates as guess: "
-        f"{found.evidence}; rounding alone makes it {spread}, as the listing's slips are still there",
+        f"{found.evidence}; rounding alone makes it {spread}, the slips still being there",
     )
 
 
