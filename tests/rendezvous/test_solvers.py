@@ -17,7 +17,7 @@ from smallsat.studies.rendezvous.guidance.phase_programs import (
 )
 from smallsat.studies.rendezvous.methods import qp_solvers, solver_comparison
 from smallsat.studies.rendezvous.methods.qp_solvers import Sample, cost
-from smallsat.studies.rendezvous.methods.solver_comparison import NOT_FOR_LP, QP_SOLVERS, samples
+from smallsat.studies.rendezvous.methods.solver_comparison import QP_SOLVERS, samples
 
 
 @pytest.fixture(scope="module")
@@ -29,15 +29,13 @@ def programs(laws, chasers):
 def test_all_solvers_find_the_same_cost(programs):
     """Costs agree to 1e-6 of what the control saves, but for OSQP's at its usual tolerance.
 
-    The stage-wise solver, HPIPM and Clarabel solve every program. DAQP has constraints hard and may
-    find a program infeasible, and PIQP now and then takes one for infeasible that is not.
+    The stage-wise solver and Clarabel solve every program.
     """
     answers, _ = solver_comparison.compare(programs)
     for name in QP_SOLVERS:
         mine = answers[answers["back_end"] == name]
-        if name not in ("DAQP", "OSQP", "PIQP"):
-            assert mine["solved"].all(), name
         if name != "OSQP":
+            assert mine["solved"].all(), name
             assert mine["cost_error"].max() < 1e-6, name
     table = solver_comparison.summary(answers)
     assert set(table["kind"]) == {sample.kind for sample in programs}
@@ -60,7 +58,6 @@ def test_osqp_finds_the_same_where_it_is_let_run(programs):
 def test_programs_are_of_every_kind(programs, laws):
     kinds = {sample.kind for sample in programs}
     assert len(kinds) == 13 and len(programs) >= 40
-    assert set(QP_SOLVERS) >= NOT_FOR_LP
 
 
 @settings(max_examples=40)
@@ -110,7 +107,7 @@ def test_random_programs_agree_with_clarabel(seed, stages, weight, one_norm):
         random.normal(size=(stages + 1, bounds)),
         weight * random.uniform(0.5, 2.0, (stages + 1, bounds)),
     )
-    sample = Sample("random", program, stages, random.normal(size=6), 0.0)
+    sample = Sample("random", program, stages, random.normal(size=6))
     mine = qp_solvers.own(sample, 1e-10)
     other = qp_solvers.clarabel(qp_solvers.sparse_program(sample), 1e-9)
     assert mine.solved

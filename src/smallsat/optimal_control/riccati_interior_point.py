@@ -15,11 +15,11 @@ start; steps are Mehrotra's predictor and corrector (SIAM J. Optim. 2, 1992). In
 closed loops under five laws it took 11 iterations on average and never more than 27, infeasible
 programs included.
 
-Why not a library: a full study solves several million programs, and the fastest library for each
-phase takes about six times as long for them
-(`smallsat.studies.rendezvous.methods.solver_comparison` measures it); the only ones that need no
-Python around each call are HPIPM, whose kernels are made for larger matrices, and DAQP, which knows
-no penalty of the first power without further unknowns.
+Why not a library: a full study solves several million programs, and those that
+`smallsat.studies.rendezvous.methods.solver_comparison` measures take many times as long for them.
+Two that need no Python around each call were measured once: HPIPM, whose kernels are made for
+larger matrices, takes about six times as long, and DAQP knows no penalty of the first power without
+further unknowns.
 """
 
 from typing import NamedTuple

@@ -1,11 +1,8 @@
 """Library solvers for the programs of `riccati_interior_point`, one function each.
 
-All solve the same problem, in which constraints are penalties with a large weight; DAQP alone has
-them hard, for which it has a form, and so finds some programs infeasible.
-
-Each library is called by its own interface, not through qpsolvers: that counts wall-clock seconds
-instead of the processor's, tells no iterations of Clarabel and DAQP, and hands HPIPM one dense
-problem, without the stages that it is made for.
+All solve the same problem, in which constraints are penalties with a large weight. Each library is
+called by its own interface, not through qpsolvers: that counts wall-clock seconds instead of the
+processor's, and tells no iterations of Clarabel.
 """
 
 import time
@@ -34,13 +31,12 @@ REPETITIONS = 20  # of the stage-wise solver, whose time is too short for the cl
 
 @dataclass(frozen=True)
 class Sample:
-    """One program of a closed loop: which kind, the program, its stages, start and hard weight."""
+    """One program of a closed loop: which kind, the program, its stages and its start."""
 
     kind: str
     program: Program
     stages: int
     start: np.ndarray
-    hard_weight: float
 
 
 @dataclass(frozen=True)
@@ -162,25 +158,6 @@ def _answer(data: SparseProgram, solved: bool, z: Any, iterations: int, seconds:
     return Answer(solved, controls, iterations, seconds)
 
 
-def piqp(data: SparseProgram, tolerance: float) -> Answer:
-    """PIQP, sparse: a proximal interior-point method."""
-    import piqp as library
-
-    solver = library.SparseSolver()
-    solver.settings.eps_abs = solver.settings.eps_rel = tolerance
-    solver.settings.eps_duality_gap_abs = solver.settings.eps_duality_gap_rel = tolerance
-    solver.settings.max_iter = 1000
-    minus = np.full(len(data.at_most), -np.inf)
-    solver.setup(
-        data.quadratic, data.linear, data.equalities, data.equal_to, data.inequalities, minus,
-        data.at_most, data.lower, data.upper,
-    )  # fmt: skip
-    status, seconds = timed(solver.solve)
-    return _answer(
-        data, status == library.PIQP_SOLVED, solver.result.x, solver.result.info.iter, seconds
-    )
-
-
 def _cone_rows(data: SparseProgram) -> tuple[sparse.csc_matrix, np.ndarray]:
     """Inequalities and finite bounds as one set of rows Gz <= h."""
     identity = sparse.eye(len(data.lower), format="csr")
@@ -230,49 +207,6 @@ def osqp(data: SparseProgram, tolerance: float) -> Answer:
     result, seconds = timed(lambda: solver.solve(raise_error=False))
     solved = result.info.status == "solved"
     return _answer(data, solved, result.x, result.info.iter, seconds)
-
-
-def daqp(sample: Sample, tolerance: float) -> Answer:
-    """DAQP: a dual active-set method, on the program in the controls alone.
-
-    Rows with the hard weight are constraints; the others keep their excess as an unknown.
-    """
-    import daqp as library
-
-    data = sparse_program(sample)
-    controls, states = CONTROLS * sample.stages, STATES * sample.stages
-    u, x = slice(0, controls), slice(controls, controls + states)
-    # the states, x = at_rest + reach u
-    free = np.linalg.solve(
-        data.equalities[:, x].toarray(),
-        np.column_stack([data.equal_to, -data.equalities[:, u].toarray()]),
-    )
-    at_rest, reach = free[:, 0], free[:, 1:]
-    inner = data.quadratic[x, x].toarray()
-    weights = data.linear[controls + states :]
-    soft = np.flatnonzero(weights != sample.hard_weight)
-    excesses = len(soft)
-    hessian = np.zeros((controls + excesses, controls + excesses))
-    hessian[u, u] = data.quadratic[u, u].toarray() + reach.T @ inner @ reach
-    gradient = np.concatenate(
-        [data.linear[u] + reach.T @ (data.linear[x] + inner @ at_rest), weights[soft]]
-    )
-    rows = data.inequalities[:, : controls + states].toarray()
-    matrix = np.zeros((len(weights), controls + excesses))
-    matrix[:, u] = rows[:, u] + rows[:, x] @ reach
-    matrix[soft, controls + np.arange(excesses)] = -1.0
-    limits = data.at_most - rows[:, x] @ at_rest
-    infinite = 1e30
-    upper = np.concatenate([np.ones(controls), np.full(excesses, infinite), limits])
-    lower = np.concatenate(
-        [-np.ones(controls), np.zeros(excesses), np.full(len(limits), -infinite)]
-    )
-    found, _, flag, info = library.solve(
-        hessian, gradient, matrix, upper, lower, primal_tol=tolerance, iter_limit=100000
-    )
-    return _answer(
-        data, flag == 1, found, info["iterations"], info["setup_time"] + info["solve_time"]
-    )
 
 
 def own(sample: Sample, tolerance: float) -> Answer:

@@ -10,7 +10,6 @@ from smallsat.studies.rendezvous.guidance.controller import TOLERANCE
 from smallsat.studies.rendezvous.guidance.law import PHASES, Law, settings
 from smallsat.studies.rendezvous.guidance.phase_programs import empty_program, write_program
 from smallsat.studies.rendezvous.methods import qp_solvers
-from smallsat.studies.rendezvous.methods.hpipm import hpipm
 from smallsat.studies.rendezvous.methods.qp_solvers import Answer, Sample
 from smallsat.studies.rendezvous.simulation.closed_loop import simulate
 
@@ -22,13 +21,9 @@ def _sparse(solve: Callable[..., Answer], tolerance: float) -> Callable[[Sample]
 # Each at a tolerance at which it still converges as a rule; OSQP's is its usual one.
 QP_SOLVERS: dict[str, Callable[[Sample], Answer]] = {
     "stage-wise": partial(qp_solvers.own, tolerance=TOLERANCE),
-    "HPIPM": partial(hpipm, tolerance=1e-8),
-    "PIQP": _sparse(qp_solvers.piqp, 1e-9),
     "Clarabel": _sparse(qp_solvers.clarabel, 1e-8),
-    "DAQP": partial(qp_solvers.daqp, tolerance=1e-9),
     "OSQP": _sparse(qp_solvers.osqp, 1e-4),
 }
-NOT_FOR_LP = {"HPIPM", "DAQP"}
 
 
 def samples(laws: dict[str, Law], starts: np.ndarray, count: int) -> list[Sample]:
@@ -67,7 +62,6 @@ def samples(laws: dict[str, Law], starts: np.ndarray, count: int) -> list[Sample
                         program,
                         int(record["horizons"][phase]),
                         state / record["scales"][phase],
-                        float(record["hard_weights"][phase]),
                     )
                 )
     return found
@@ -89,11 +83,7 @@ def compare(programs: list[Sample]) -> tuple[pd.DataFrame, pd.DataFrame]:
     if programs:
         QP_SOLVERS["stage-wise"](programs[0])  # compiles
     for number, sample in enumerate(programs):
-        answers = {
-            name: solve(sample)
-            for name, solve in QP_SOLVERS.items()
-            if not (name in NOT_FOR_LP and sample.program.control_norm[0] > 0.0)
-        }
+        answers = {name: solve(sample) for name, solve in QP_SOLVERS.items()}
         costs = {
             name: qp_solvers.cost(sample, answer.controls)
             for name, answer in answers.items()
