@@ -128,6 +128,25 @@ def test_sweep_claims_wait_where_a_run_has_other_lists(judge, section, tmp_path,
         assert found["docking-recommended"] == "undecided"
 
 
+@pytest.mark.parametrize(
+    ("level", "growth", "outcome"),
+    [(2.0, 1.0, "holds"), (2.0, -1.0, "fails"), (30.0, -1.0, "undecided")],
+)
+def test_a_horizon_beyond_the_printed_axis_is_no_witness(
+    judge, section, tmp_path, level, growth, outcome
+):
+    """Spreads that grow with the sample time, but for N 5: within Figure 4.7, and beyond."""
+    table = synthetic.sweep(
+        "approach",
+        *APPROACH,
+        COUNT,
+        lambda n, t: level * (t / 10) ** growth if n == 5 else 2 * t / 10,
+        lambda n, t: 200.0,
+    )
+    write(tmp_path, approach_sweep=table)
+    assert judge(section, tmp_path, ["approach-spread"]) == {"approach-spread": outcome}
+
+
 def test_claims_of_manoeuvres_that_never_dock(judge, section, tmp_path):
     """Nothing completes, so nothing is decided, and nothing stops the judge."""
     states = synthetic.states(COUNT)
