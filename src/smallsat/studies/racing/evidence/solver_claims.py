@@ -229,9 +229,9 @@ def no_easy_guess(grounds: Grounds) -> Judgement:
     texts = [f"{row['sum']} of {row['size']} from the {name}" for name, row in share.iterrows()]
     return judged(
         (simple["sum"] < simple["size"] / 2).all(),
-        f"Meeny's segments that the indirect method solves: {', '.join(texts)}. The direct "
-        f"method's multipliers are such a guess, though not an analytical one; that no "
-        f"other exists is not shown",
+        f"Meeny's segments that the well-posed indirect method solves: {', '.join(texts)}. The "
+        f"directions are those of the listing; the previous segment is the author's own best "
+        f"attempt, easy though not analytical, and his listing does not use it",
     )
 
 
