@@ -35,6 +35,8 @@ READERS = {
     "racing_optima_scenario_1",
     "racing_optima_scenario_2",
     "racing_variants",
+    "racing_simple_guesses",
+    "racing_propellant",
     "racing_checks",
     "racing_dynamic_programming",
     "racing_random_courses_1_of_2",
