@@ -3,7 +3,7 @@
 INTERVALS = [1, *CONFIG["transfer"].intervals]
 TRANSFER_SHARDS = [f"as-published-k{intervals}" for intervals in INTERVALS]
 
-for experiment in ("indirect", "converged", "continuous"):
+for experiment in ("indirect", "converged", "unbounded", "continuous", "tighter_bounds"):
     step(
         "transfer",
         experiment,
@@ -38,35 +38,59 @@ for intervals, name in zip(INTERVALS, TRANSFER_SHARDS, strict=True):
         name,
         runs="as_published",
         part=intervals,
-        makes=[f"{name}.csv", f"{name}.parquet"],
+        makes=[f"{name}.csv", f"{name}.parquet", f"{name}-path.csv"],
         clock=[f"{name}-seconds.csv"],
         # The largest part decides when the study is done: start it first.
         priority=intervals,
+    )
+
+    step(
+        "transfer",
+        f"long-flights-k{intervals}",
+        runs="long_flights",
+        part=intervals,
+        makes=[f"long-flights-k{intervals}.csv"],
     )
 
 step(
     "transfer",
     "gather",
     reads=[
-        f"{name}{suffix}"
-        for name in TRANSFER_SHARDS
-        for suffix in (".csv", ".parquet", "-seconds.csv")
+        *[f"long-flights-k{intervals}.csv" for intervals in INTERVALS],
+        *[
+            f"{name}{suffix}"
+            for name in TRANSFER_SHARDS
+            for suffix in (".csv", ".parquet", "-seconds.csv", "-path.csv")
+        ],
     ],
     published=["values.csv"],
-    makes=["as-published.csv", "as-published.parquet", "early-stopping.csv"],
+    makes=[
+        "as-published.csv",
+        "as-published.parquet",
+        "as-published-path.csv",
+        "printed-stop.csv",
+        "long-flights.csv",
+    ],
     clock=["as-published-seconds.csv"],
 )
 step(
     "transfer",
     "observations",
     reads=[
-        *[f"{name}.csv" for name in ("indirect", "as-published", "converged", "continuous")],
-        "multistart.csv",
+        *[f"{name}.csv" for name in ("indirect", "as-published", "converged", "unbounded")],
+        *[f"{name}.csv" for name in ("continuous", "multistart", "tighter_bounds")],
         "indirect-seconds.csv",
         "as-published-seconds.csv",
         *[
             f"{name}-not-converged.csv"
-            for name in ("indirect", "converged", "continuous", "multistart", "collocation")
+            for name in (
+                "indirect",
+                "converged",
+                "unbounded",
+                "continuous",
+                "multistart",
+                "collocation",
+            )
         ],
     ],
     published=["values.csv"],
@@ -79,8 +103,13 @@ JUDGED["transfer"] = [
     "indirect.csv",
     "indirect.parquet",
     "as-published.csv",
+    "as-published.parquet",
     "converged.csv",
+    "converged.parquet",
+    "unbounded.csv",
     "continuous.csv",
+    "tighter_bounds.csv",
     "multistart.csv",
-    "early-stopping.csv",
+    "printed-stop.csv",
+    "long-flights.csv",
 ]

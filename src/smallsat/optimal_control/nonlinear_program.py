@@ -1,13 +1,16 @@
 """A nonlinear program with equality constraints and bounds, and the solvers we give it to."""
 
 import time
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import casadi as ca
 import numpy as np
 from scipy.optimize import minimize
+
+# A variable so near a bound counts as on it.
+AT_BOUND = 1e-9
 
 
 @dataclass(frozen=True)
@@ -33,6 +36,23 @@ class NonlinearProgram:
 
 
 @dataclass(frozen=True)
+class StoppingRule:
+    """Tolerances at which a run is stopped, measured as MATLAB's ``fmincon`` measures them.
+
+    Attributes
+    ----------
+    optimality
+        Of the first-order optimality: the largest entry of the Lagrangian's gradient, over the
+        variables that are off their bounds, with the multipliers that make its norm least.
+    feasibility
+        Of the largest absolute constraint error.
+    """
+
+    optimality: float
+    feasibility: float
+
+
+@dataclass(frozen=True)
 class Solution:
     """What a solver returned, its status read.
 
@@ -55,6 +75,9 @@ class Solution:
     multipliers
         One a constraint, (m,), where the solver gives them: the gradient of the objective plus
         multipliers times that of the constraints vanishes where no bound is active.
+    path
+        Objective, largest constraint error and first-order optimality (iterations, 3) of every
+        iterate, where a stopping rule was given.
     """
 
     variables: np.ndarray
@@ -65,6 +88,15 @@ class Solution:
     violation: float
     seconds: float = field(compare=False)
     multipliers: np.ndarray | None = field(default=None, compare=False)
+    path: np.ndarray | None = field(default=None, compare=False)
+
+
+class _Stopped(Exception):
+    """Leaves SLSQP, which asks no callback whether to go on; carries the iterate."""
+
+    def __init__(self, variables: np.ndarray):
+        super().__init__()
+        self.variables = variables.copy()
 
 
 class SlsqpSolver:
@@ -88,6 +120,57 @@ class SlsqpSolver:
 
     def solve(self, guess: np.ndarray, tolerance: float, iterations: int = 1000) -> Solution:
         """Solve from a guess (n,); ``tolerance`` is SLSQP's ``ftol``."""
+        return self._solve(guess, tolerance, iterations, None)
+
+    def solve_until(
+        self, guess: np.ndarray, rule: StoppingRule, tolerance: float, iterations: int = 1000
+    ) -> Solution:
+        """Solve from a guess (n,) until an iterate meets a rule, or SLSQP ends by itself.
+
+        It has not converged where SLSQP ended first, whatever it says.
+        """
+        path: list[tuple[float, float, float]] = []
+
+        def watch(z: np.ndarray) -> None:
+            violation, optimality = self._first_order(z)
+            path.append((float(self._objective(z)), violation, optimality))
+            if optimality <= rule.optimality and violation <= rule.feasibility:
+                raise _Stopped(z)
+
+        began = time.perf_counter()
+        try:
+            ended = self._solve(guess, tolerance, iterations, watch)
+            return replace(ended, converged=False, path=np.reshape(path, (-1, 3)))
+        except _Stopped as stop:
+            objective, violation, optimality = path[-1]
+            return Solution(
+                variables=stop.variables,
+                objective=objective,
+                converged=True,
+                status=f"first-order optimality {optimality:.1e}, constraints {violation:.1e}",
+                iterations=len(path),
+                violation=violation,
+                seconds=time.perf_counter() - began,
+                path=np.array(path),
+            )
+
+    def _first_order(self, z: np.ndarray) -> tuple[float, float]:
+        """Largest constraint error and first-order optimality at an iterate (n,)."""
+        lower, upper = np.transpose(self._bounds)
+        free = (z > lower + AT_BOUND) & (z < upper - AT_BOUND)
+        gradient = self._gradient(z).full().ravel()[free]
+        jacobian = self._jacobian(z).full()[:, free]
+        multipliers = np.linalg.lstsq(jacobian.T, -gradient, rcond=None)[0]
+        violation = np.max(np.abs(self._constraints(z).full()))
+        return float(violation), float(np.max(np.abs(gradient + jacobian.T @ multipliers)))
+
+    def _solve(
+        self,
+        guess: np.ndarray,
+        tolerance: float,
+        iterations: int,
+        watch: Callable[[np.ndarray], None] | None,
+    ) -> Solution:
         began = time.perf_counter()
         result = minimize(
             lambda z: float(self._objective(z)),
@@ -101,6 +184,7 @@ class SlsqpSolver:
             },
             method="SLSQP",
             options={"ftol": tolerance, "maxiter": iterations},
+            callback=watch,
         )
         seconds = time.perf_counter() - began
         violation = float(np.max(np.abs(self._constraints(result.x).full())))

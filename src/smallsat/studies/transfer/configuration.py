@@ -60,12 +60,22 @@ class Steps(Part):
     converged: StepCount
 
 
+class Stop(Part):
+    """Where ``fmincon`` stops: its first-order optimality and its constraint error."""
+
+    optimality_single: Positive
+    optimality_multiple: Positive
+    feasibility: Positive
+
+
 class Numerics(Part):
     """The tolerance of the as-published runs is SLSQP's ftol, ``multistart`` is starts a degree."""
 
     steps: Steps
+    stop: Stop
     as_published_tolerance: Positive
-    early_stopping_tolerances: Several[Positive]
+    tighter_bounds: Several[Positive]
+    thrust_shares: Several[Positive]
     multistart: Annotated[Integer, Interval(ge=1, le=10000)]
     seed: Seed
 

@@ -6,16 +6,17 @@ from pathlib import Path
 import pandas as pd
 
 from smallsat.evidence.observation import Observation
+from smallsat.evidence.printed import Printed, parse_printed
 from smallsat.studies.transfer.results import PrintedCase, parse_case, read_cases, select
 
 # Runs in the order in which they are shown; the last is the best one.
 RUNS = ("as published", "converged")
 COLUMN_OF = {
+    "iterations": "iterations",
     "terminal time": "final_time",
     "terminal mass": "final_mass",
     "largest terminal mass": "final_mass",
     "terminal time after opening coefficient bounds": "final_time",
-    "terminal time before opening coefficient bounds": "final_time",
 }
 SECONDS = ("sim time", "elapsed time", "execution time")
 
@@ -33,13 +34,21 @@ def observe(rows: Sequence[Row], results: Path) -> Iterator[Observation]:
         Folder with the study's case tables.
     """
     cases = read_cases(results)
+    times = {
+        (row["locator"], row["case"]): row["printed"]
+        for row in rows
+        if row["quantity"] == "terminal time"
+    }
     for row in rows:
         case = parse_case(row["case"])
         column = COLUMN_OF.get(row["quantity"])
-        if row["quantity"] == "iterations":
-            column = "iterations"
         if case and column:
-            yield from _observe_case(row["id"], cases, case, column)
+            runs: Sequence[str] = RUNS
+            if column == "final_mass":
+                # A mass belongs to the run that decides the time printed beside it.
+                time = parse_printed(times.get((row["locator"], row["case"]), ""))
+                runs = _deciding(cases, case, time) if time else RUNS
+            yield from _observe_case(row["id"], cases, case, column, runs)
     yield from _derived(rows, cases)
 
 
@@ -48,10 +57,8 @@ def seconds(rows: Sequence[Row], results: Path, timings: pd.DataFrame) -> pd.Dat
 
     The printed seconds are of the as-published kind of run, and so are ours.
     """
-    cases = read_cases(results)
     keys = ["method", "run", "degree", "intervals"]
-    strict = cases[cases["residual"].notna()][keys]
-    timed = strict.merge(timings, on=keys).set_index(keys)["seconds"]
+    timed = timings.set_index(keys)["seconds"]
     found = []
     for row in rows:
         case = parse_case(row["case"])
@@ -62,11 +69,19 @@ def seconds(rows: Sequence[Row], results: Path, timings: pd.DataFrame) -> pd.Dat
     return pd.DataFrame(found, columns=["id", "seconds"])
 
 
+def _deciding(cases: pd.DataFrame, case: PrintedCase, time: Printed) -> Sequence[str]:
+    """The first run whose final time equals the printed one; where none does, the best run."""
+    for run in RUNS:
+        if select(cases, case, run)["final_time"].map(time.matches).any():
+            return (run,)
+    return RUNS[-1:] if len(select(cases, case, RUNS[-1])) else RUNS[:1]
+
+
 def _observe_case(
-    identifier: str, cases: pd.DataFrame, case: PrintedCase, column: str
+    identifier: str, cases: pd.DataFrame, case: PrintedCase, column: str, runs: Sequence[str]
 ) -> Iterator[Observation]:
     # Iterations belong to the run of the document's kind alone.
-    for run in RUNS[:1] if column == "iterations" else RUNS:
+    for run in RUNS[:1] if column == "iterations" else runs:
         for found in select(cases, case, run).to_dict("records"):
             yield Observation(
                 identifier,
@@ -129,12 +144,7 @@ def degree_spread(cases: pd.DataFrame, run: str) -> pd.Series:
 
     Not a number for a K of which a case did not converge.
     """
-    times = cases[
-        (cases["method"] == "direct")
-        & (cases["run"] == run)
-        & (cases["intervals"] > 1)
-        & cases["residual"].notna()
-    ]
+    times = cases[(cases["method"] == "direct") & (cases["run"] == run) & (cases["intervals"] > 1)]
     groups = times.groupby("intervals")["final_time"]
     spread = 100 * (groups.max() - groups.min()) / groups.min()
     return spread.where(groups.count() == groups.size())

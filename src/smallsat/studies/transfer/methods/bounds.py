@@ -1,7 +1,8 @@
-"""Bounds of the converged runs, which follow from the extremal and are wide of every solution.
+"""Bounds of the runs near the extremal, which follow from it and are wide of every solution.
 
 They keep IPOPT's first steps from controls so wild that fixed steps cannot follow them, and none of
-them is active at the end. Everything is in canonical units.
+them is active at the end but those of coefficients that are asked for. Everything is in canonical
+units.
 """
 
 import numpy as np
@@ -11,6 +12,7 @@ from smallsat.studies.transfer.methods.direct import Case
 from smallsat.studies.transfer.model.problem import STATES, TransferProblem
 
 Bounds = tuple[np.ndarray, np.ndarray]
+Interval = tuple[float, float]
 
 # Final time of the document's transfer (Table 1), and bounds of a flight as long.
 PUBLISHED_TIME = 3.24694
@@ -42,8 +44,10 @@ def time_bounds(final_time: float) -> tuple[float, float]:
     return scale * TIME_BOUNDS[0], scale * TIME_BOUNDS[1]
 
 
-def near_bounds(case: Case, guess: np.ndarray, extremal: pd.DataFrame) -> Bounds:
-    """Bounds (size,) of a case near an extremal, wider than the document's where that needs it.
+def near_bounds(
+    case: Case, guess: np.ndarray, extremal: pd.DataFrame, coefficients: Interval | None = None
+) -> Bounds:
+    """Bounds (size,) of a case near an extremal.
 
     Parameters
     ----------
@@ -51,21 +55,30 @@ def near_bounds(case: Case, guess: np.ndarray, extremal: pd.DataFrame) -> Bounds
         The case, and its guess from the extremal.
     extremal
         Table of `smallsat.studies.transfer.methods.indirect.propagate_extremal`.
+    coefficients
+        Bounds of the coefficients that the case has; None for bounds that stay inactive.
     """
     lower, upper = zip(*(_state_bounds(extremal[name], name) for name in STATES), strict=True)
-    _, coefficients, final_time = case.split(guess)
-    largest = max(COEFFICIENT_BOUND, COEFFICIENT_ROOM * float(np.max(np.abs(coefficients))))
+    _, guessed, final_time = case.split(guess)
+    largest = max(COEFFICIENT_BOUND, COEFFICIENT_ROOM * float(np.max(np.abs(guessed))))
+    least, most = coefficients or (-largest, largest)
     earliest, latest = time_bounds(float(final_time))
-    return _vector(case, lower, -largest, earliest), _vector(case, upper, largest, latest)
+    return _vector(case, lower, least, earliest), _vector(case, upper, most, latest)
 
 
-def wide_bounds(case: Case, problem: TransferProblem) -> Bounds:
-    """Bounds (size,) of a case that leave room for any flight that has mass left."""
+def wide_bounds(
+    case: Case, problem: TransferProblem, coefficients: Interval | None = None
+) -> Bounds:
+    """Bounds (size,) of a case that leave room for any flight that has mass left.
+
+    ``coefficients`` are as in `near_bounds`.
+    """
     far = [4.0 * max(1.0, problem.final_radius), np.inf, 4.0, 4.0, 1.0]
     longest = LONGEST_SHARE * problem.longest_time
+    least, most = coefficients or (-WIDE_COEFFICIENT, WIDE_COEFFICIENT)
     return (
-        _vector(case, [0.0, -np.inf, -4.0, 0.0, 0.0], -WIDE_COEFFICIENT, 0.0),
-        _vector(case, far, WIDE_COEFFICIENT, longest),
+        _vector(case, [0.0, -np.inf, -4.0, 0.0, 0.0], least, 0.0),
+        _vector(case, far, most, longest),
     )
 
 

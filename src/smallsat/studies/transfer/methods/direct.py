@@ -1,11 +1,13 @@
 """Direct shooting: polynomial control in one or K intervals, as a nonlinear program."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import casadi as ca
 import numpy as np
 import pandas as pd
+from numpy.polynomial import Polynomial
+from scipy.optimize import lsq_linear
 
 from smallsat.optimal_control.nonlinear_program import NonlinearProgram
 from smallsat.optimal_control.runge_kutta import integrate, step_function
@@ -145,7 +147,22 @@ def control_history(case: Case, z: np.ndarray) -> ControlHistory:
     return ControlHistory(times, controls)
 
 
-def fitted_guess(case: Case, extremal: pd.DataFrame) -> np.ndarray:
+def largest_coefficient(case: Case, z: np.ndarray) -> float:
+    """Largest coefficient of a solution (size,) in the document's basis, whatever the case's."""
+    _, coefficients, _ = case.split(z)
+    published = replace(case, basis="global")
+    largest = 0.0
+    for k, row in enumerate(np.reshape(coefficients, (case.intervals, case.degree + 1))):
+        (a, b), (start, end) = interval_ends(case, k), interval_ends(published, k)
+        slope = (b - a) / (end - start)
+        local = Polynomial([a - slope * start, slope])
+        largest = max(largest, float(np.max(np.abs(Polynomial(row[::-1])(local).coef))))
+    return largest
+
+
+def fitted_guess(
+    case: Case, extremal: pd.DataFrame, coefficients: tuple[float, float] = (-np.inf, np.inf)
+) -> np.ndarray:
     """Guess (size,) from an extremal: its control fitted by polynomials, its states at the nodes.
 
     Parameters
@@ -154,6 +171,8 @@ def fitted_guess(case: Case, extremal: pd.DataFrame) -> np.ndarray:
         The case to guess for.
     extremal
         Table of `smallsat.studies.transfer.methods.indirect.propagate_extremal`.
+    coefficients
+        Bounds of the polynomials' coefficients, within which the fit is the best one.
     """
     t = extremal["t"].to_numpy()
     ends = np.linspace(t[0], t[-1], case.intervals + 1)
@@ -161,8 +180,8 @@ def fitted_guess(case: Case, extremal: pd.DataFrame) -> np.ndarray:
     rows = []
     for k in range(case.intervals):
         start, end = interval_ends(case, k)
-        s = np.linspace(start, end, 40)
-        times = np.linspace(ends[k], ends[k + 1], s.size)
-        rows.append(np.polyfit(s, np.interp(times, t, angle), case.degree))
+        powers = np.vander(np.linspace(start, end, 40), case.degree + 1)
+        times = np.linspace(ends[k], ends[k + 1], len(powers))
+        rows.append(lsq_linear(powers, np.interp(times, t, angle), coefficients).x)
     nodes = [[np.interp(end, t, extremal[name]) for name in STATES] for end in ends[1:-1]]
     return np.concatenate([np.ravel(nodes), np.ravel(rows), [t[-1]]])

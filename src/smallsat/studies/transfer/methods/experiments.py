@@ -8,7 +8,7 @@ What is the document's own (`as_published`) runs in the configuration's units, e
 canonical ones.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,18 +16,26 @@ import numpy as np
 import pandas as pd
 
 from smallsat.evidence.not_converged import NotConverged
-from smallsat.optimal_control.nonlinear_program import IpoptSolver, SlsqpSolver, Solution
+from smallsat.optimal_control.nonlinear_program import (
+    IpoptSolver,
+    SlsqpSolver,
+    Solution,
+    StoppingRule,
+)
 from smallsat.studies.transfer.configuration import Configuration
 from smallsat.studies.transfer.methods.bounds import (
     Bounds,
+    Interval,
     near_bounds,
     relative_length,
     wide_bounds,
 )
 from smallsat.studies.transfer.methods.direct import (
+    Basis,
     Case,
     control_history,
     fitted_guess,
+    largest_coefficient,
     published_guess,
     shooting_program,
 )
@@ -64,6 +72,9 @@ FURTHER_STARTS = 40
 WINNERS = 5
 # How many times more steps a solution gets that another integrator does not confirm.
 FINER = 4
+# A run that meets its stopping rule may miss the end by so many times the rule's constraint error
+# when it is flown through: the errors at the interval ends add up and grow on the way.
+FLOWN = 10.0
 
 
 @dataclass(frozen=True)
@@ -86,11 +97,10 @@ class Solved:
 
     def tables(self, name: str) -> dict[str, pd.DataFrame]:
         """Cases and trajectories by file name; seconds apart, which differ from build to build."""
-        timed = self.cases[self.cases["residual"].notna()]
         return {
             f"{name}.csv": self.cases.drop(columns="seconds"),
             f"{name}.parquet": self.trajectories,
-            f"{name}-seconds.csv": timed[[*LABEL, "seconds"]],
+            f"{name}-seconds.csv": self.cases[[*LABEL, "seconds"]],
         }
 
 
@@ -142,19 +152,28 @@ def indirect(section: Configuration) -> Solved:
     return Solved(pd.DataFrame(rows), _joined(frames, empty), missing)
 
 
-def as_published(section: Configuration, intervals: int) -> Solved:
+def as_published(section: Configuration, intervals: int) -> tuple[Solved, pd.DataFrame]:
     """Direct shooting from the document's guess, in its basis and bounds, by an SQP method.
 
-    Each case is also stopped early, at the looser tolerances of the configuration; only the run at
-    ``as_published_tolerance`` keeps its trajectory. A run that fails is the document's method's
-    own result, not a case that we could not solve.
+    Each run stops where the document's solver does. One that ends elsewhere, or whose flight by
+    another integrator misses the end, has not converged: it keeps its row and says how it ended,
+    but has neither final time nor trajectory. It is no case that we could not solve.
+
+    Returns
+    -------
+    solved
+        One row a degree.
+    path
+        One row an iterate: degree, intervals, iteration, final_time, violation, optimality.
     """
     problem = TransferProblem.of(section.problem)
     units = units_of(problem)
-    numerics, bounds = section.numerics, section.bounds
-    strict = numerics.as_published_tolerance
+    numerics, bounds, stop = section.numerics, section.bounds, section.numerics.stop
     multiple = intervals > 1
-    rows, frames = [], []
+    rule = StoppingRule(
+        stop.optimality_multiple if multiple else stop.optimality_single, stop.feasibility
+    )
+    rows, frames, paths = [], [], []
     for degree in section.degrees:
         case = Case(degree, intervals, "global")
         program = shooting_program(
@@ -165,30 +184,56 @@ def as_published(section: Configuration, intervals: int) -> Solved:
             state_bounds=bounds.interior_state,
             time_bounds=bounds.final_time_multiple if multiple else bounds.final_time_single,
         )
-        solver = SlsqpSolver(program)
-        guess = published_guess(case, section.guess)
-        for tolerance in (strict, *numerics.early_stopping_tolerances):
-            solution = solver.solve(guess, tolerance)
-            row = _direct_row("as published", case, solution) | {"tolerance": tolerance}
-            if tolerance == strict:
-                final, table = propagate(
-                    problem, control_history(case, solution.variables), _share(case)
-                )
-                errors = np.array(problem.terminal_error(final)) / units.state[[0, 2, 3]]
-                row |= {"final_mass": final[4], "residual": error_magnitude(errors)}
-                frames.append(_labelled(table, row))
-            rows.append(row)
-    return Solved(pd.DataFrame(rows), _joined(frames, [*LABEL, *COLUMNS]), [])
+        solution = SlsqpSolver(program).solve_until(
+            published_guess(case, section.guess), rule, numerics.as_published_tolerance
+        )
+        paths.append(_path(case, solution))
+        history = control_history(case, solution.variables)
+        final, table = propagate(problem, history, _share(case))
+        errors = np.array(problem.terminal_error(final)) / units.state[[0, 2, 3]]
+        residual = error_magnitude(errors)
+        if solution.converged and residual <= FLOWN * stop.feasibility:
+            row = _direct_row("as published", case, solution)
+            row |= {"final_mass": final[4], "residual": residual}
+            frames.append(_labelled(table, row))
+        else:
+            ended = f"{solution.status}, t_f = {solution.objective:.6g}, error {residual:.1e}"
+            row = _missing_row("as published", case, ended)
+        rows.append(row)
+    solved = Solved(pd.DataFrame(rows), _joined(frames, [*LABEL, *COLUMNS]), [])
+    return solved, pd.concat(paths, ignore_index=True)
 
 
 def converged(section: Configuration) -> Solved:
-    """Direct multiple shooting in a local basis, started from the indirect solution, by IPOPT."""
-    return _near_extremal(section, "converged", continuous=False)
+    """The document's direct multiple shooting, within its coefficient bounds, solved by IPOPT."""
+    bounds = section.bounds.coefficient
+    return _near_extremal(section, "converged", section.intervals, coefficients=bounds)
+
+
+def unbounded(section: Configuration) -> Solved:
+    """The same without bounds on the coefficients, in a local basis."""
+    return _near_extremal(section, "unbounded", section.intervals)
 
 
 def continuous(section: Configuration) -> Solved:
     """The same with a control that is continuous at the interval ends (the future work)."""
-    return _near_extremal(section, "continuous", continuous=True)
+    return _near_extremal(section, "continuous", section.intervals, continuous=True)
+
+
+def tighter_bounds(section: Configuration) -> Solved:
+    """The cases with most intervals within tighter bounds, as before the document opened them.
+
+    The document does not print these bounds, so that a case without a solution is none that we
+    could not solve.
+    """
+    solved = [
+        _near_extremal(
+            section, f"bounds {bound:g}", [max(section.intervals)], coefficients=(-bound, bound)
+        )
+        for bound in section.numerics.tighter_bounds
+    ]
+    cases = pd.concat([one.cases for one in solved], ignore_index=True)
+    return Solved(cases, pd.concat([one.trajectories for one in solved], ignore_index=True), [])
 
 
 def multistart(section: Configuration) -> tuple[Solved, pd.DataFrame]:
@@ -272,10 +317,18 @@ class _Attempted:
     not_converged: NotConverged | None = None
 
 
-def _near_extremal(section: Configuration, run: str, *, continuous: bool) -> Solved:
+def _near_extremal(
+    section: Configuration,
+    run: str,
+    intervals: Sequence[int],
+    *,
+    coefficients: Interval | None = None,
+    continuous: bool = False,
+) -> Solved:
     problem, units = _canonical(section)
     extremal = extremal_table(section)
-    cases = [Case(n, k, "local") for n in section.degrees for k in section.intervals]
+    # Bounds are those of the document's basis; without them the better conditioned one is taken.
+    basis: Basis = "global" if coefficients else "local"
     steps = section.numerics.steps.converged
     return _collect(
         units,
@@ -283,20 +336,30 @@ def _near_extremal(section: Configuration, run: str, *, continuous: bool) -> Sol
             _not_started(case, run, extremal)
             if isinstance(extremal, NotConverged)
             else _first_converged(
-                problem, case, run, _tries(problem, case, extremal, steps, continuous), ""
+                problem,
+                case,
+                run,
+                _tries(problem, case, extremal, steps, continuous, coefficients),
+                "",
             )
-            for case in cases
+            for case in (Case(n, k, basis) for n in section.degrees for k in intervals)
         ],
     )
 
 
 def _tries(
-    problem: TransferProblem, case: Case, extremal: pd.DataFrame, steps: int, continuous: bool
+    problem: TransferProblem,
+    case: Case,
+    extremal: pd.DataFrame,
+    steps: int,
+    continuous: bool,
+    coefficients: Interval | None,
 ) -> Iterator[Try]:
     """Solutions from the extremal: near it, farther off, with finer steps."""
-    guess = fitted_guess(case, extremal)
+    guess = fitted_guess(case, extremal, coefficients or (-np.inf, np.inf))
     steps = enough_steps(steps, problem, float(extremal["t"].iloc[-1]))
-    near, wide = near_bounds(case, guess, extremal), wide_bounds(case, problem)
+    near = near_bounds(case, guess, extremal, coefficients)
+    wide = wide_bounds(case, problem, coefficients)
     ways: tuple[tuple[str, Bounds, int, Row], ...] = (
         ("near the extremal", near, steps, {"mu_init": 1e-4}),
         ("in wide bounds", wide, steps, {}),
@@ -307,7 +370,12 @@ def _tries(
         program.lower[:], program.upper[:] = lower, upper
         solution = IpoptSolver(program, **options).solve(guess)
         z = solution.variables
-        yield name, solution, {"bound_slack": float(np.minimum(z - lower, upper - z).min())}
+        slack = np.minimum(z - lower, upper - z)
+        if coefficients:
+            # Only the bounds of ours must stay inactive.
+            interior, _, final_time = case.split(slack)
+            slack = np.append(interior, final_time)
+        yield name, solution, {"bound_slack": float(slack.min())}
 
 
 def _polished(
@@ -336,6 +404,7 @@ def _first_converged(
         if solution.converged and residual < FINE:
             row = _direct_row(run, case, solution) | columns
             row |= {"final_mass": final[4], "residual": residual}
+            row |= {"largest_coefficient": largest_coefficient(case, solution.variables)}
             return _Attempted(row, _labelled(table, row))
         tried.append(f"{name}: {solution.status}, error at the end {residual:.1e}")
     return _Attempted(
@@ -405,6 +474,14 @@ def _direct_row(run: str, case: Case, solution: Solution) -> Row:
         "residual": np.nan,
         "seconds": solution.seconds,
     }
+
+
+def _path(case: Case, solution: Solution) -> pd.DataFrame:
+    path = pd.DataFrame(solution.path, columns=["final_time", "violation", "optimality"])
+    path.insert(0, "iteration", np.arange(1, len(path) + 1))
+    path.insert(0, "intervals", case.intervals)
+    path.insert(0, "degree", case.degree)
+    return path
 
 
 def _missing_row(run: str, case: Case, status: str) -> Row:

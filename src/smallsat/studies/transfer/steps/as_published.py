@@ -6,5 +6,7 @@ from smallsat.studies.transfer.methods.experiments import as_published
 
 
 def run(step: Step[Configuration]) -> Tables:
-    """Solve from the document's guess, converged or not."""
-    return as_published(step.section, int(step.part)).tables(f"as-published-k{step.part}")
+    """Solve from the document's guess, converged or not, and keep the iterates."""
+    name = f"as-published-k{step.part}"
+    solved, path = as_published(step.section, int(step.part))
+    return solved.tables(name) | {f"{name}-path.csv": path}

@@ -1,4 +1,4 @@
-"""Cases that must converge; the part is ``indirect``, ``converged`` or ``continuous``."""
+"""The extremal, and direct solutions near it; the part is the name of the experiment."""
 
 from smallsat.evidence.not_converged import not_converged_table
 from smallsat.step import Step, Tables

@@ -6,17 +6,25 @@ from smallsat.evidence.ledger import Ledger
 from smallsat.results import read_table
 from smallsat.step import Step, Tables
 from smallsat.studies.transfer.configuration import Configuration
-from smallsat.studies.transfer.evidence.early_stopping import early_stopping_table
+from smallsat.studies.transfer.evidence.printed_stop import printed_stop_table
 
 
 def run(step: Step[Configuration]) -> Tables:
-    """Join the numbers of intervals; compare early-stopped runs with Table 4."""
+    """Join the numbers of intervals; compare the stopped runs with Table 4."""
     shards = [f"as-published-k{intervals}" for intervals in (1, *step.section.intervals)]
     tables = {
         f"as-published{suffix}": pd.concat(
             [read_table(step.results / f"{shard}{suffix}") for shard in shards], ignore_index=True
         )
-        for suffix in (".csv", ".parquet", "-seconds.csv")
+        for suffix in (".csv", ".parquet", "-seconds.csv", "-path.csv")
     }
+    flights = [
+        read_table(step.results / f"long-flights-k{intervals}.csv")
+        for intervals in (1, *step.section.intervals)
+    ]
+    tables["long-flights.csv"] = pd.concat(flights, ignore_index=True)
     ledger = Ledger.read(step.published / "values.csv")
-    return tables | {"early-stopping.csv": early_stopping_table(tables["as-published.csv"], ledger)}
+    stopped = printed_stop_table(
+        tables["as-published.csv"], tables["as-published-path.csv"], ledger
+    )
+    return tables | {"printed-stop.csv": stopped}
