@@ -10,7 +10,7 @@ from smallsat.strict_yaml import read_yaml
 NUMBERS = {
     "transfer": (
         "exhaust-speed", "final-radius", "mass-n4-k16", "mass-n4-prose", "mass-n6-prose",
-        "extra-digit-k16", "effect-of-degree", "time-n4-prose", "increase-in-time",
+        "effect-of-degree", "time-n4-prose", "increase-in-time",
     ),
     "mars": ("table-8-sigma-1", "nadir-frame-sign", "gain-fraction"),
     "slew": (

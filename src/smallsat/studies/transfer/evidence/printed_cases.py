@@ -4,7 +4,7 @@ import pandas as pd
 
 from smallsat.evidence.ledger import Ledger
 from smallsat.evidence.printed import parse_printed
-from smallsat.studies.transfer.results import parse_case
+from smallsat.studies.transfer.results import PrintedCase, parse_case
 
 
 def printed_cases(ledger: Ledger, locator: str, aspect: str = "value") -> pd.DataFrame:
@@ -57,3 +57,15 @@ def contradictions(ledger: Ledger, place: str, other: str, renamed: dict[str, st
         if abs(here.value - there.value) > 1.000001 * unit:
             rows.append({"case": case, "quantity": quantity, place: literal, other: twin})
     return pd.DataFrame(rows, columns=["case", "quantity", place, other])
+
+
+def printed_time(ledger: Ledger, case: PrintedCase) -> str:
+    """Final time of a case as its table prints it; empty where none does."""
+    printed = (
+        row["printed"]
+        for row in ledger.rows
+        if row["locator"].startswith("Table ")
+        and row["quantity"] == "terminal time"
+        and parse_case(row["case"]) == case
+    )
+    return next(printed, "")

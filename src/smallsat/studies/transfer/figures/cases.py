@@ -22,10 +22,17 @@ SYMBOLS = {
     "v_theta": r"$v_\theta$",
     "m": "$m$",
 }
-STYLES = {"as published": ("-", 1.3, 1.0), "converged": ((0, (3, 1.5)), 0.9, 0.75)}
+_DASHED = ((0, (3, 1.5)), 0.9, 0.75)
+# The best single polynomial of many starts is another minimum than the document's.
+ANOTHER_MINIMUM = "another minimum, best of many starts"
+STYLES = {"as published": ("-", 1.3, 1.0), "converged": _DASHED, ANOTHER_MINIMUM: _DASHED}
+# The document's axis of the indirect figures says t where its listings integrate over tau.
+AXIS = {"direct": r"$\tau$", "indirect": r"$\tau$ (labelled $t$ in the document)"}
 
 
-def states_figure(flown: pd.DataFrame, missing: Sequence[str] = ()) -> Figure:
+def states_figure(
+    flown: pd.DataFrame, missing: Sequence[str] = (), printed: str = "", method: str = "direct"
+) -> Figure:
     """All five states against tau, interval ends as asterisks.
 
     Parameters
@@ -34,6 +41,10 @@ def states_figure(flown: pd.DataFrame, missing: Sequence[str] = ()) -> Figure:
         Trajectories of one case in one or two runs, columns run, segment, tau and the states.
     missing
         Runs that were not flown, which the figure names.
+    printed
+        Final time that the document prints of the case.
+    method
+        ``direct`` or ``indirect``, which labels the axis.
     """
     figure, axes = plt.subplots(figsize=SIZE)
     for run, path in flown.groupby("run", sort=False):
@@ -44,7 +55,7 @@ def states_figure(flown: pd.DataFrame, missing: Sequence[str] = ()) -> Figure:
             ends = _interval_ends(path)
             for state in STATES:
                 axes.plot(ends["tau"], ends[state], "*", color=BLACK, ms=3.5, lw=0)
-    axes.set_xlabel(r"$\tau$")
+    axes.set_xlabel(AXIS[method])
     axes.set_ylabel("state (canonical units)")
     handles = [
         Line2D([], [], color=colour, label=SYMBOLS[state])
@@ -53,14 +64,19 @@ def states_figure(flown: pd.DataFrame, missing: Sequence[str] = ()) -> Figure:
     figure.legend(
         handles=handles, loc="outside upper center", ncols=5, handlelength=1.2, columnspacing=1
     )
-    _run_legend(figure, flown, missing)
+    _run_legend(figure, flown, missing, printed)
     return figure
 
 
-def control_figure(flown: pd.DataFrame, missing: Sequence[str] = ()) -> Figure:
-    """Thrust angle in degrees, 0 to 360, against tau, interval ends as asterisks."""
+def control_figure(
+    flown: pd.DataFrame, missing: Sequence[str] = (), printed: str = "", method: str = "direct"
+) -> Figure:
+    """Thrust angle in degrees, 0 to 360, against tau, interval ends as asterisks.
+
+    Parameters as of `states_figure`.
+    """
     figure, axes = plt.subplots(figsize=SIZE)
-    colours = {"as published": CYCLE[0], "converged": CYCLE[1]}
+    colours = dict(zip(STYLES, (CYCLE[0], CYCLE[1], CYCLE[1]), strict=True))
     for run, path in flown.groupby("run", sort=False):
         style, width, _ = STYLES[str(run)]
         for _, segment in path.groupby("segment"):
@@ -69,6 +85,7 @@ def control_figure(flown: pd.DataFrame, missing: Sequence[str] = ()) -> Figure:
         if run == "as published":
             ends = _interval_ends(path)
             axes.plot(ends["tau"], _degrees(ends["beta"]), "*", color=BLACK, ms=3.5, lw=0)
+    axes.set_xlabel(AXIS[method])
     _angle_axis(axes)
     # The row of symbols in the figure beside it is empty here; this keeps the two axes level.
     figure.legend(
@@ -76,7 +93,7 @@ def control_figure(flown: pd.DataFrame, missing: Sequence[str] = ()) -> Figure:
         loc="outside upper center",
         handlelength=0,
     )
-    _run_legend(figure, flown, missing, colours)
+    _run_legend(figure, flown, missing, printed, colours)
     return figure
 
 
@@ -104,7 +121,6 @@ def _interval_ends(path: pd.DataFrame) -> pd.DataFrame:
 
 
 def _angle_axis(axes: Axes) -> None:
-    axes.set_xlabel(r"$\tau$")
     axes.set_ylabel(r"$\beta$ (deg)")
     axes.set_ylim(-10, 370)
     axes.set_yticks(range(0, 361, 90))
@@ -114,9 +130,10 @@ def _run_legend(
     figure: Figure,
     flown: pd.DataFrame,
     missing: Sequence[str],
+    printed: str,
     colours: dict[str, str] | None = None,
 ) -> None:
-    """Name the runs and their final times below the axes."""
+    """Name the runs and their final times below the axes, with the printed one."""
     if flown.empty:
         mark_missing(figure.axes[0])
     handles = []
@@ -124,6 +141,8 @@ def _run_legend(
         style, width, _ = STYLES[str(run)]
         colour = (colours or {}).get(str(run), BLACK)
         label = f"{run}, $t_f$ = {path['t'].iloc[-1]:.5f}"
+        if run == "as published" and printed:
+            label += f" (printed {printed})"
         handles.append(Line2D([], [], ls=style, lw=width, color=colour, label=label))
     handles += [Line2D([], [], lw=0, label=f"{run}: {NOT_CONVERGED}") for run in missing]
     figure.legend(handles=handles, loc="outside lower center", fontsize=7, handlelength=2.5)

@@ -1,18 +1,44 @@
 """Figures 65 to 70: all cases compared, and the figures of the chapter's own section."""
 
+from dataclasses import dataclass
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
-from smallsat.drawing.style import BLACK, BLUE, CYCLE, GREEN, ORANGE, VERMILION, WIDTH
+from smallsat.drawing.style import BLACK, BLUE, CYCLE, GREEN, ORANGE, SKY, VERMILION, WIDTH
 from smallsat.studies.transfer.figures.missing import NOT_CONVERGED, mark_missing
 from smallsat.studies.transfer.methods.bounds import relative_length
 
+# Figure 70 shows the flight from here on: before it no two methods can be told apart.
+LAST_TAU = 0.99
+
+
+@dataclass(frozen=True)
+class Style:
+    """How a group of cases is drawn, so that none hides another that coincides with it."""
+
+    colour: str
+    width: float
+    line: str
+    size: float
+
+
+GROUPS = {
+    "indirect": Style(BLACK, 3.0, "-", 10.0),
+    "indirect multiple": Style(SKY, 1.8, "-", 7.0),
+    "direct multiple": Style(GREEN, 0.7, "-", 4.0),
+    "direct": Style(VERMILION, 0.9, "--", 4.0),
+}
+# What `work` counts, as the axes say it.
+WORK = "flights integrated, ours"
+
 
 def work(cases: pd.DataFrame) -> pd.Series:
-    """Flights that a finite-difference solver, like the document's, would need.
+    """Flights that a finite-difference solver, like the document's, would integrate.
 
     Iterations times (unknowns + 1): a measure of cost that no machine changes.
     """
@@ -29,7 +55,7 @@ def cost_surface(cost: pd.DataFrame) -> Figure:
     """
     return _surfaces(
         cost,
-        {"seconds": "printed (s)", "work": "flights (thousands)"},
+        {"seconds": "printed execution time (s)", "work": f"{WORK} (thousands)"},
         scale={"work": 1e-3},
     )
 
@@ -43,7 +69,7 @@ def cost_lines(cost: pd.DataFrame) -> Figure:
     """Figure 66: cost against K, one line a degree."""
     figure, pair = plt.subplots(1, 2, figsize=(WIDTH, 2.8))
     for axes, column, label in zip(
-        pair, ("seconds", "work"), ("printed execution time (s)", "flights"), strict=True
+        pair, ("seconds", "work"), ("printed execution time (s)", WORK), strict=True
     ):
         for degree, group in cost.groupby("degree"):
             axes.plot(group["intervals"], group[column], "-o", ms=3, label=f"N = {degree}")
@@ -58,18 +84,25 @@ def cost_against_indirect(cost: pd.DataFrame, indirect: pd.DataFrame) -> Figure:
     """Figure 68: cost of direct and of indirect multiple shooting against K."""
     figure, pair = plt.subplots(1, 2, figsize=(WIDTH, 3.0), sharex=True)
     for axes, column, label in zip(
-        pair, ("seconds", "work"), ("printed execution time (s)", "flights"), strict=True
+        pair, ("seconds", "work"), ("printed execution time (s)", WORK), strict=True
     ):
         for degree, group in cost.groupby("degree"):
             axes.plot(group["intervals"], group[column], "-o", ms=3, label=f"direct, N = {degree}")
+        # Ours counts evaluations of another root finder, which vary more than fsolve's iterations.
         axes.plot(
-            indirect["intervals"], indirect[column], "--s", color=BLACK, ms=4, label="indirect"
+            indirect["intervals"],
+            indirect[column],
+            "--s",
+            color=BLACK,
+            ms=4,
+            label="indirect" if column == "seconds" else "indirect, by evaluations of ours",
         )
         axes.set_yscale("log")
         axes.set_xlabel("intervals K")
         axes.set_ylabel(label)
         axes.set_xticks(sorted(cost["intervals"].unique()))
-    pair[1].legend(fontsize=7)
+    handles, labels = pair[1].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=3, fontsize=7)
     return figure
 
 
@@ -84,38 +117,52 @@ def mass_history(flown: pd.DataFrame, finals: pd.DataFrame) -> Figure:
         Columns label, final_time, final_mass, group.
     """
     figure, (left, right) = plt.subplots(1, 2, figsize=(WIDTH, 3.0))
-    colours = _group_colours()
     for label, path in flown.groupby("label", sort=False):
-        kind = str(finals.loc[finals["label"] == label, "group"].iloc[0])
-        left.plot(path["tau"], path["m"], color=colours[kind], lw=0.8)
+        style = GROUPS[str(finals.loc[finals["label"] == label, "group"].iloc[0])]
+        left.plot(path["tau"], path["m"], color=style.colour, lw=style.width, ls=style.line)
     if flown.empty:
         mark_missing(left)
     left.set_xlabel(r"$\tau$")
     left.set_ylabel("mass")
     for group, rows in finals.groupby("group", sort=False):
+        style = GROUPS[str(group)]
         right.plot(
             rows["final_time"],
             rows["final_mass"],
             "o",
-            ms=4,
-            color=colours[str(group)],
+            ms=style.size,
+            mfc="none",
+            color=style.colour,
             label=group,
         )
     right.set_xlabel("$t_f$")
     right.set_ylabel("final mass")
-    right.legend()
+    handles = [
+        Line2D([], [], color=style.colour, lw=style.width, ls=style.line, label=group)
+        for group, style in GROUPS.items()
+    ]
+    figure.legend(handles=handles, loc="outside upper center", ncols=4, fontsize=7)
     return figure
 
 
-def mass_above_printed(finals: pd.DataFrame) -> Figure:
-    """Figure 70: how far each case's final mass lies below the indirect optimum, on a log scale.
+def mass_above_printed(flown: pd.DataFrame, finals: pd.DataFrame) -> Figure:
+    """Figure 70: the end of the mass's history, and how far final masses lie below the optimum.
 
     Parameters
     ----------
+    flown
+        As of `mass_history`, with a column group; without single polynomials.
     finals
         Columns degree, intervals, optimum, and the masses printed, as_published, converged.
     """
-    figure, axes = plt.subplots(figsize=(WIDTH, 3.3))
+    figure, (left, axes) = plt.subplots(
+        1, 2, figsize=(WIDTH, 3.3), gridspec_kw={"width_ratios": [1, 1.7]}
+    )
+    for (group, _), path in flown[flown["tau"] >= LAST_TAU].groupby(["group", "label"], sort=False):
+        style = GROUPS[str(group)]
+        left.plot(path["tau"], path["m"], color=style.colour, lw=style.width, ls=style.line)
+    left.set_xlabel(r"$\tau$")
+    left.set_ylabel("mass")
     position = np.arange(len(finals))
     for column, colour, marker in (
         ("printed", VERMILION, "D"),
@@ -132,10 +179,10 @@ def mass_above_printed(finals: pd.DataFrame) -> Figure:
     for place in position[above]:
         axes.annotate(
             "printed above optimum",
-            (place - 0.5, 0.02),
+            (place, 0.98),
             xycoords=axes.get_xaxis_transform(),
             ha="center",
-            va="bottom",
+            va="top",
             fontsize=6,
             rotation=90,
             color=VERMILION,
@@ -149,17 +196,24 @@ def mass_above_printed(finals: pd.DataFrame) -> Figure:
         fontsize=7,
     )
     axes.set_xlabel("N, K")
-    figure.legend(loc="outside upper center", ncols=3)
+    handles, _ = axes.get_legend_handles_labels()
+    handles += [
+        Line2D([], [], color=style.colour, lw=style.width, ls=style.line, label=group)
+        for group, style in GROUPS.items()
+        if group in set(flown["group"])
+    ]
+    figure.legend(handles=handles, loc="outside upper center", ncols=3, fontsize=7)
     return figure
 
 
-def early_stopping_figure(table: pd.DataFrame, optimum: float) -> Figure:
-    """Final time of as-published runs stopped at looser tolerances, beside the printed ones.
+def printed_stop_figure(table: pd.DataFrame, optimum: float) -> Figure:
+    """Final times where the printed tolerance stops the document's set-up, beside the printed ones.
 
     Parameters
     ----------
     table
-        The table of `smallsat.studies.transfer.evidence.early_stopping.early_stopping_table`.
+        The table of `smallsat.studies.transfer.evidence.printed_stop.printed_stop_table`, with a
+        column converged: the best final time within the printed bounds.
     optimum
         Final time of the indirect solution, which sets the scale; not a number if there is none.
     """
@@ -169,29 +223,39 @@ def early_stopping_figure(table: pd.DataFrame, optimum: float) -> Figure:
     if table.empty:
         mark_missing(panels[0], "none of the printed cases")
         return figure
-    scale = _scale(optimum)
-    band = table["printed"].min(), table["printed"].max()
+    low, high = 3.2468 * _scale(optimum), 3.2494 * _scale(optimum)
     for axes, (intervals, rows) in zip(panels, table.groupby("intervals"), strict=True):
-        axes.axhspan(*band, color="#dddddd", lw=0)
-        for colour, (degree, group) in zip(CYCLE, rows.groupby("degree"), strict=False):
-            axes.semilogx(
-                group["tolerance"],
-                group["final_time"],
-                "-",
-                lw=0.8,
-                color=colour,
-                label=f"N = {degree}",
+        axes.axhline(optimum, color=BLACK, lw=0.8, ls="--")
+        axes.plot(rows["degree"], rows["printed"], "D", ms=7, mfc="none", color=VERMILION)
+        hit = rows[rows["equal_to_printed"]]
+        axes.plot(rows["degree"], rows["final_time"], "o", ms=4, mfc="none", color=BLUE)
+        axes.plot(hit["degree"], hit["final_time"], "o", ms=4, color=BLUE)
+        axes.plot(rows["degree"], rows["converged"], "_", ms=8, color=GREEN)
+        for row in rows[rows["final_time"] > high].itertuples():
+            axes.annotate(
+                f"{row.final_time:.2f}",
+                (float(str(row.degree)), 0.98),
+                xycoords=axes.get_xaxis_transform(),
+                ha="center",
+                va="top",
+                fontsize=7,
+                color=BLUE,
             )
-            hit = group[group["equal_to_printed"]]
-            axes.plot(hit["tolerance"], hit["final_time"], "o", ms=5, color=colour)
-        axes.set_ylim(3.2468 * scale, 3.2525 * scale)
-        axes.invert_xaxis()
         axes.set_title(f"K = {intervals}")
-        axes.set_xlabel("SLSQP ftol")
-        axes.tick_params(axis="x", labelsize=7)
-        axes.set_xticks([1e-4, 1e-6, 1e-8])
+        axes.set_xlabel("degree N")
+        axes.set_xticks(rows["degree"])
+    panels[0].set_ylim(low, high)
     panels[0].set_ylabel("$t_f$")
-    panels[-1].legend(fontsize=7)
+    handles = [
+        Line2D([], [], marker="D", ms=7, mfc="none", lw=0, color=VERMILION, label="printed"),
+        Line2D(
+            [], [], marker="o", ms=4, lw=0, color=BLUE, label="stopped, equal to the last digit"
+        ),
+        Line2D([], [], marker="o", ms=4, mfc="none", lw=0, color=BLUE, label="stopped, not equal"),
+        Line2D([], [], marker="_", ms=8, lw=0, color=GREEN, label="converged"),
+        Line2D([], [], color=BLACK, lw=0.8, ls="--", label="indirect optimum"),
+    ]
+    figure.legend(handles=handles, loc="outside upper center", ncols=5, fontsize=7)
     return figure
 
 
@@ -255,15 +319,6 @@ def multistart_figure(starts: pd.DataFrame, optimum: float, printed: pd.Series) 
 def _scale(optimum: float) -> float:
     # The document's own transfer where there is no optimum.
     return relative_length(optimum) if np.isfinite(optimum) else 1.0
-
-
-def _group_colours() -> dict[str, str]:
-    return {
-        "direct": VERMILION,
-        "direct multiple": GREEN,
-        "indirect multiple": BLUE,
-        "indirect": BLACK,
-    }
 
 
 def _surfaces(

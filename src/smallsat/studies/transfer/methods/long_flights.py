@@ -4,6 +4,7 @@ The document expects single shooting to fail on long flights, and multiple shoot
 thrust makes the flight longer, and nothing else is changed.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -36,7 +37,7 @@ def long_flights(section: Configuration, intervals: int) -> pd.DataFrame:
     -------
     DataFrame
         One row a share of the thrust and a guess: share, intervals, optimum (final time of the
-        continuation), guess and final_time in the configuration's unit of time, the latter not a
+        continuation's extremal), guess and final_time in the configuration's unit of time, the latter not a
         number where shooting did not end at the optimum, and status.
     """
     configured = TransferProblem.of(section.problem)
@@ -65,3 +66,14 @@ def long_flights(section: Configuration, intervals: int) -> pd.DataFrame:
             times = [time * units.time for time in (optimum, guess, final_time)]
             rows.append((share, intervals, *times, status))
     return pd.DataFrame(rows, columns=COLUMNS)
+
+
+def joined_flights(parts: Sequence[pd.DataFrame]) -> pd.DataFrame:
+    """Tables of `long_flights` in one, the optimum the shortest flight that any of them knows.
+
+    Two extremals may be so near to each other that the continuation follows the slower one.
+    """
+    table = pd.concat(parts, ignore_index=True)
+    shortest = table[["optimum", "final_time"]].min(axis=1)
+    table["optimum"] = shortest.groupby(table["share"]).transform("min")
+    return table

@@ -7,6 +7,7 @@ from smallsat.results import read_table
 from smallsat.step import Step, Tables
 from smallsat.studies.transfer.configuration import Configuration
 from smallsat.studies.transfer.evidence.printed_stop import printed_stop_table
+from smallsat.studies.transfer.methods.long_flights import joined_flights
 
 
 def run(step: Step[Configuration]) -> Tables:
@@ -22,7 +23,7 @@ def run(step: Step[Configuration]) -> Tables:
         read_table(step.results / f"long-flights-k{intervals}.csv")
         for intervals in (1, *step.section.intervals)
     ]
-    tables["long-flights.csv"] = pd.concat(flights, ignore_index=True)
+    tables["long-flights.csv"] = joined_flights(flights)
     ledger = Ledger.read(step.published / "values.csv")
     stopped = printed_stop_table(
         tables["as-published.csv"], tables["as-published-path.csv"], ledger
