@@ -37,8 +37,8 @@ def long_flights(section: Configuration, intervals: int) -> pd.DataFrame:
     -------
     DataFrame
         One row a share of the thrust and a guess: share, intervals, optimum (final time of the
-        continuation's extremal), guess and final_time in the configuration's unit of time, the latter not a
-        number where shooting did not end at the optimum, and status.
+        continuation's extremal), guess and final_time in the configuration's unit of time, the
+        latter not a number where shooting did not end at the optimum, and status.
     """
     configured = TransferProblem.of(section.problem)
     units = units_of(configured)
