@@ -241,6 +241,7 @@ def printed_stop_figure(table: pd.DataFrame, optimum: float) -> Figure:
                 fontsize=7,
                 color=BLUE,
             )
+        axes.margins(x=0.12)
         axes.set_title(f"K = {intervals}")
         axes.set_xlabel("degree N")
         axes.set_xticks(rows["degree"])
@@ -255,7 +256,7 @@ def printed_stop_figure(table: pd.DataFrame, optimum: float) -> Figure:
         Line2D([], [], marker="_", ms=8, lw=0, color=GREEN, label="converged"),
         Line2D([], [], color=BLACK, lw=0.8, ls="--", label="indirect optimum"),
     ]
-    figure.legend(handles=handles, loc="outside upper center", ncols=5, fontsize=7)
+    figure.legend(handles=handles, loc="outside upper center", ncols=3, fontsize=7)
     return figure
 
 
