@@ -13,8 +13,10 @@ from smallsat.drawing.style import BLACK, BLUE, CYCLE, GREEN, ORANGE, SKY, VERMI
 from smallsat.studies.transfer.figures.missing import NOT_CONVERGED, mark_missing
 from smallsat.studies.transfer.methods.bounds import relative_length
 
-# Figure 70 shows the flight from here on: before it no two methods can be told apart.
-LAST_TAU = 0.99
+# Figure 70 shows the flight from here on, and masses so near to the optimum: farther off no two
+# methods can be told apart, and the cases that lie lower are seen in the gap beside it.
+LAST_TAU = 0.998
+MASS_ROOM = 0.0005
 
 
 @dataclass(frozen=True)
@@ -95,7 +97,7 @@ def cost_against_indirect(cost: pd.DataFrame, indirect: pd.DataFrame) -> Figure:
             "--s",
             color=BLACK,
             ms=4,
-            label="indirect" if column == "seconds" else "indirect, by evaluations of ours",
+            label="indirect (right: by evaluations)",
         )
         axes.set_yscale("log")
         axes.set_xlabel("intervals K")
@@ -163,6 +165,10 @@ def mass_above_printed(flown: pd.DataFrame, finals: pd.DataFrame) -> Figure:
         left.plot(path["tau"], path["m"], color=style.colour, lw=style.width, ls=style.line)
     left.set_xlabel(r"$\tau$")
     left.set_ylabel("mass")
+    if len(flown) and finals["optimum"].notna().all():
+        optimum = float(finals["optimum"].iloc[0])
+        left.set_ylim(optimum - MASS_ROOM, optimum + MASS_ROOM)
+    left.set_xticks([LAST_TAU, 1.0])
     position = np.arange(len(finals))
     for column, colour, marker in (
         ("printed", VERMILION, "D"),
@@ -346,5 +352,6 @@ def _surfaces(
         axes.tick_params(axis="z", pad=2)
         axes.zaxis.set_major_locator(MaxNLocator(5))
         axes.ticklabel_format(axis="z", useOffset=False)
-        axes.view_init(25, 50)
+        # As MATLAB looks at a surface, and the document with it.
+        axes.view_init(30, -127.5)
     return figure
