@@ -21,7 +21,9 @@ def put(column, value, **columns):
     def change(table):
         rows = of(table, **columns) if columns else np.ones(len(table), bool)
         old = table.loc[rows, column]
-        table[column] = table[column].astype(object if isinstance(value, str) else float)
+        if not callable(value):
+            kind = float if type(value) in (float, int) else object
+            table[column] = table[column].astype(kind)
         table.loc[rows, column] = value(old) if callable(value) else value
 
     return change
