@@ -15,8 +15,8 @@ from smallsat.studies.transfer.methods.bounds import relative_length
 
 # Figure 70 shows the flight from here on, and masses so near to the optimum: farther off no two
 # methods can be told apart, and the cases that lie lower are seen in the gap beside it.
-LAST_TAU = 0.998
-MASS_ROOM = 0.0005
+LAST_TAU = 0.99
+MASS_ROOM = 0.0003
 
 
 @dataclass(frozen=True)
@@ -167,7 +167,7 @@ def mass_above_printed(flown: pd.DataFrame, finals: pd.DataFrame) -> Figure:
     left.set_ylabel("mass")
     if len(flown) and finals["optimum"].notna().all():
         optimum = float(finals["optimum"].iloc[0])
-        left.set_ylim(optimum - MASS_ROOM, optimum + MASS_ROOM)
+        left.set_ylim(optimum - MASS_ROOM, float(flown["m"].max()) + MASS_ROOM)
     left.set_xticks([LAST_TAU, 1.0])
     position = np.arange(len(finals))
     for column, colour, marker in (
