@@ -198,6 +198,14 @@ def test_an_upper_bound_is_kept_by_anything_below():
     assert verdict(0.02, printed="<0.01").verdict == "mismatch"
 
 
+def test_an_upper_bound_is_consistent_with_an_interval_below_it():
+    """Both ends must keep it; and equal digits are no reproduction under such a rule."""
+    rule = {"interval": "the printed plan"}
+    assert verdict(0.0, printed="<0.01", rule=rule).verdict == "consistent"
+    wide = Observation(ID, 0.004, low=-0.02, high=0.005)
+    assert verdict(wide, printed="<0.01", rule=rule).verdict == "unreproducible"
+
+
 @pytest.mark.parametrize(
     ("printed", "binding", "erratum", "expected"),
     [

@@ -14,8 +14,7 @@ NUMBERS = {
     ),
     "mars": ("table-8-sigma-1", "nadir-frame-sign", "gain-fraction"),
     "slew": (
-        "table-3-time-optimal", "table-3-eigenaxis", "table-2-velocity-sign",
-        "eigenaxis-peak-momentum", "guidance-share",
+        "table-3-time-optimal", "table-3-eigenaxis", "table-2-velocity-sign", "guidance-share",
     ),
     "racing": ("start-covariance", "start-ring-comment", "start-of-meeny"),
     "rendezvous": ("initial-distance",),

@@ -18,6 +18,7 @@ from smallsat.studies.slew.evidence import errata
                 for axis, size in {"l": "0.3", "b": "0.1", "h": "0.1"}.items()
             },
         ),
+        ("zenith_axis", {"table-5/area-normal-vector/panel-3": "+x"}),
         ("guidance_share", {"section-vi-c/guidance-share-of-run-time/min": "93"}),
     ],
 )

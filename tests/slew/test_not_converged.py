@@ -128,9 +128,10 @@ def test_a_flight_that_never_settles_has_no_time(parameters):
     """Not a number, instead of a place beyond the table; at rest at the target it is the start."""
     turn = np.radians(45.0)
     rows = {"time_s": [0.0, 1.0], "q_1": 0.0, "q_2": 0.0, "q_3": np.sin(turn), "q_4": np.cos(turn)}
-    flown = pd.DataFrame(rows)
-    assert np.isnan(comparable_time(flown, 45.0, 0.9))
-    assert comparable_time(flown, 90.0, 0.9) == 0.0
+    flown = pd.DataFrame(rows | {"omega_z": np.radians([0.5, 0.1])})
+    assert np.isnan(comparable_time(flown, 45.0, 0.9, 1.0))
+    assert comparable_time(flown, 90.0, 0.9, 1.0) == 0.0
+    assert comparable_time(flown, 90.0, 0.9, 0.2) == 1.0
 
 
 def test_the_least_infeasible_plan_stands_in_where_there_is_no_other(parameters):

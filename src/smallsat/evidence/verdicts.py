@@ -282,7 +282,8 @@ def _interval(case: Case) -> Outcome | None:
     """Consistent or unreproducible: agreement with a sample, or under inferred parameters.
 
     Equal digits are no reproduction here: another sample or inference would give others. Where a
-    rule judges its numbers jointly, each has the verdict of their sum, whose interval a run has.
+    a rule judges its numbers jointly, each has the verdict of their sum, whose interval a run has.
+    A printed upper bound must lie above the whole interval.
     """
     if "interval" not in case.rule:
         return None
@@ -291,7 +292,8 @@ def _interval(case: Case) -> Outcome | None:
         reason = f"{reason}; printed are {compared:g} in all"
     for run in case.solved:
         low, high = _ends(run)
-        if low - half_unit <= compared <= high + half_unit:
+        inside = low - half_unit <= compared <= high + half_unit
+        if max(abs(low), abs(high)) < compared if case.compared.bound else inside:
             return case.decided("consistent", f"{reason}; {_interval_text(run)}", run)
     nearest = min(case.solved, key=lambda run: abs(run["computed"] - case.printed.value))
     found = case.decided("unreproducible", f"{reason}; {_interval_text(nearest)}", nearest)

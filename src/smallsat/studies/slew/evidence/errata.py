@@ -79,35 +79,6 @@ def table_2_velocity_sign(grounds: Grounds) -> Proof:
     )
 
 
-def peak_momentum(grounds: Grounds[Configuration]) -> Proof:
-    """38.9 %: no controller of the family gives it together with the other printed values."""
-    parameters = Parameters.from_section(grounds.section)
-    flown = grounds.rows("flights.parquet", flight="eigenaxis quarter")
-    peak = float(100.0 * flown["h_z"].abs().max() / parameters.momentum)
-    name = "section-vi-a/maximum-angular-momentum-usage/90-deg-eigenaxis/z"
-    printed = grounds.ledger.value(name).value
-    fits, alone, together = (
-        float(grounds.rows("controllers.csv", fitted=question)["worst_miss_half_units"].min())
-        for question in (
-            "all but the peak of 90 deg",
-            "90 deg, its peak included",
-            "all, the peak of 90 deg included",
-        )
-    )
-    return Proof(
-        fits <= 1.0 and together > 5.0,
-        f"{printed} %",
-        f"{peak:.2f} %",
-        f"The printed controller gives {peak:.2f} % and the seven other printed values of both "
-        f"turns, to {fits:.1f} half units of their last digits. With {printed} % "
-        f"instead, the nearest of all stiffnesses and dampings, three feedback laws and four "
-        f"holding times misses some value by {together:.0f} half units; for 90 deg alone other "
-        f"gains with a held torque come within {alone:.1f}. That the value is a misprint is an "
-        f"inference from this family of controllers",
-        correct=peak,
-    )
-
-
 def dimensions(grounds: Grounds[Configuration]) -> Proof:
     """l, b, h: with the printed sizes the areas of Table 5 are a hundred times too large."""
     craft = grounds.section.spacecraft
@@ -129,6 +100,32 @@ def dimensions(grounds: Grounds[Configuration]) -> Proof:
         f"of the sizes ten times the printed ones; with those the mass of "
         f"{craft.mass_kg:g} kg would have a density of {density:.2g} kg/m^3",
         correct=f"l = {size.length:g} m, b = h = {size.breadth:g} m",
+    )
+
+
+def zenith_axis(grounds: Grounds[Configuration]) -> Proof:
+    """Table 5: with its zenith panel up, the gravity gradient turns the body over.
+
+    A body whose vertical axis has the largest moment of inertia has no stable equilibrium in pitch,
+    whichever of its other axes is along the orbit.
+    """
+    parameters = Parameters.from_section(grounds.section)
+    normal = grounds.ledger.literal("table-5/area-normal-vector/panel-3").strip("$+")
+    label = grounds.ledger.literal("table-5/label/panel-3")
+    moments = dict(zip("xyz", np.diag(parameters.inertia), strict=True))
+    named = next(axis for axis in "xyz" if axis in normal)
+    least, largest = (pick(moments, key=moments.__getitem__) for pick in (min, max))
+    r, _ = parameters.state
+    up = np.array(quaternion_to_dcm(tuple(parameters.initial))) @ r
+    start = "xyz"[int(np.argmax(np.abs(up)))]
+    return Proof(
+        label.startswith("Zenith") and named == largest,
+        f"zenith along {named}, J = {moments[named]:g} kg m^2",
+        f"along {least}, J = {moments[least]:g} kg m^2",
+        f"Gravity gradient holds the axis of the least moment upright, and booms for it make that "
+        f"moment the least. The tensor of Section V.F has its least about {least} and its largest "
+        f"about {largest}, and in Table 2 the body starts with {start} upright; with {named} "
+        f"upright it would be unstable in pitch. Which of the axes slipped, the text does not tell",
     )
 
 

@@ -126,8 +126,11 @@ def traces(flown: pd.DataFrame, title: str = "") -> Drawing:
     return figure, pd.DataFrame(data)
 
 
-def environment(table: pd.DataFrame, assumptions: str) -> Drawing:
-    """Gravity gradient and drag over altitude; a band over the assumptions of the density."""
+def environment(table: pd.DataFrame, assumptions: str, lever_mm: float) -> Drawing:
+    """Gravity gradient and drag over altitude; a band over the assumptions of the density.
+
+    ``lever_mm`` is the document's lever of the drag, which the legend says.
+    """
     figure, axes = subplots(figsize=(6.3, 3.9))
     middle = table[np.isclose(table["density_factor"], 1.0)]
     for i, (offset, rows) in enumerate(table.groupby("offset_mm")):
@@ -135,9 +138,10 @@ def environment(table: pd.DataFrame, assumptions: str) -> Drawing:
         altitude = np.array(sorted(rows["altitude_km"].unique()))
         axes.fill_between(altitude, band.min(), band.max(), color=f"C{i + 1}", alpha=0.2, lw=0)
         line = middle[middle["offset_mm"] == offset]
+        source = " (Table 5)" if np.isclose(float(str(offset)), lever_mm) else ""
         axes.plot(
             line["altitude_km"], line["drag_N_m"], "--", color=f"C{i + 1}",
-            label=f"drag, lever {offset:g} mm",
+            label=f"drag, lever {offset:g} mm{source}",
         )  # fmt: skip
     one = middle.drop_duplicates("altitude_km")
     axes.plot(one["altitude_km"], one["gravity_gradient_N_m"], color="C0", label="gravity gradient")

@@ -64,12 +64,19 @@ def torque_table(section: Configuration, parameters: Parameters) -> pd.DataFrame
     return pd.DataFrame(rows)
 
 
+def printed_lever_mm(section: Configuration) -> float:
+    """How far Table 5 has the centre of pressure of the long panels off the centre, mm."""
+    return abs(float(panels(section.spacecraft)[0, 5])) * KM
+
+
 def crossover_km(table: pd.DataFrame, offset_mm: float, factor: float = 1.0) -> float:
     """Altitude above which the gravity gradient is the larger; the lowest one if it always is.
 
     Not a number if it is not at the highest.
     """
-    rows = table[(table["offset_mm"] == offset_mm) & np.isclose(table["density_factor"], factor)]
+    rows = table[
+        np.isclose(table["offset_mm"], offset_mm) & np.isclose(table["density_factor"], factor)
+    ]
     rows = rows.sort_values("altitude_km")
     ratio = np.log(rows["gravity_gradient_N_m"].to_numpy() / rows["drag_N_m"].to_numpy())
     altitude = rows["altitude_km"].to_numpy()

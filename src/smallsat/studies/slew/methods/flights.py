@@ -40,8 +40,12 @@ def eigenaxis_flights(section: Configuration, parameters: Parameters) -> pd.Data
 
 
 def replay(
-    parameters: Parameters, section: Configuration, torques: np.ndarray, duration: float
+    parameters: Parameters,
+    section: Configuration,
+    torques: np.ndarray,
+    duration: float,
+    drag: float = 1.0,
 ) -> pd.DataFrame:
-    """Torques at the resampling rate, flown in open loop in the fuller model."""
+    """Torques at the resampling rate, flown in open loop; ``drag`` is a factor of the density."""
     command = open_loop(parameters, 1.0 / section.resampling_hz, torques)
-    return run(parameters, plant(parameters), command, duration, section.numerics.step_s)
+    return run(parameters, plant(parameters, drag=drag), command, duration, section.numerics.step_s)
