@@ -248,9 +248,9 @@ def peak_of_another_controller(grounds: Grounds[Configuration]) -> Judgement:
         fits <= 1.0 < together,
         f"without that peak the nearest of all stiffnesses and dampings, three feedback laws and "
         f"four holding times gives all seven values, to {fits:.1f} half units of their last "
-        f"digits; with it some value is missed by {together:.0f} half units. For 90 deg alone other "
-        f"gains with a held torque come within {alone:.1f}. Whether the peak is a misprint or of another "
-        f"controller, this family cannot say",
+        f"digits; with it some value is missed by {together:.0f} half units. For 90 deg alone "
+        f"other gains with a held torque come within {alone:.1f}. Whether the peak is a misprint "
+        f"or of another controller, this family cannot say",
     )
 
 
