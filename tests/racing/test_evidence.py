@@ -418,3 +418,92 @@ def test_accuracy_is_compared_over_the_documents_thrusts(
     judgement = race_claims.no_thrust_is_best_for_accuracy(grounds("racing", section, tmp_path))
     assert judgement.outcome == outcome
     assert "m/s^2 or less it would save more" in judgement.evidence
+
+
+@pytest.mark.parametrize(("times", "outcome"), [((1.0, 2.0), "holds"), ((2.0, 1.0), "fails")])
+def test_mo_is_slower_in_the_race(section, tmp_path, grounds, times, outcome):
+    """By the optimal times of Meeny and Mo."""
+    by_cubesat = [1.0, times[0], 1.0, times[1]] * 2
+    _races(tmp_path, time_s=by_cubesat)
+    assert _outcome(race_claims.mo_slower_than_meeny, section, tmp_path, grounds) == outcome
+
+
+@pytest.mark.parametrize(("first", "outcome"), [(3, "holds"), (0, "fails")])
+def test_mo_has_the_potential_where_it_is_fastest(section, tmp_path, grounds, first, outcome):
+    """By the optimal times of Scenario 2."""
+    times = [1.0 if k == first else 2.0 for k in range(4)]
+    _races(tmp_path, time_s=times * 2)
+    assert _outcome(race_claims.potential_is_equal, section, tmp_path, grounds) == outcome
+
+
+@pytest.mark.parametrize(("spread", "outcome"), [(0.01, "fails"), (300.0, "holds")])
+def test_start_positions_matter_where_times_differ(section, tmp_path, grounds, spread, outcome):
+    """By a tenth of the time, or hardly."""
+    write_table(
+        pd.DataFrame({"time_s": [1000.0, 1000.0 + spread]}), tmp_path / "random-positions.csv"
+    )
+    claim = race_claims.start_positions_hardly_matter
+    assert _outcome(claim, section, tmp_path, grounds) == outcome
+
+
+@pytest.mark.parametrize(("miss", "outcome"), [(1e-9, "fails"), (1.0, "holds")])
+def test_the_problem_is_smooth_away_from_its_kink(section, tmp_path, grounds, miss, outcome):
+    """An optimum off the centres would not lie in the kink of the miss."""
+    _races(tmp_path, accuracy_m=miss)
+    assert _outcome(race_claims.not_smooth, section, tmp_path, grounds) == outcome
+
+
+@pytest.mark.parametrize(("jump", "outcome"), [(0.3, "holds"), (0.0, "fails")])
+def test_adjoints_jump(section, tmp_path, grounds, jump, outcome):
+    """Where a ring has a multiplier, or none has."""
+    meshes = pd.DataFrame(
+        {"intervals": [20], "time_s": 1.0, "largest_ring_multiplier_s_m": jump}
+    )  # fmt: skip
+    write_table(meshes, tmp_path / "meshes.csv")
+    segments = pd.DataFrame(
+        {"solution": [WHOLE], "cubesat": "Meeny", "px": 1.0, "py": 0.0, "pz": 0.0}
+    )
+    write_table(segments, tmp_path / "optima-scenario-1-segments.csv")
+    assert _outcome(race_claims.adjoints_jump, section, tmp_path, grounds) == outcome
+
+
+@pytest.mark.parametrize(("fine", "outcome"), [(0.001, "holds"), (0.2, "fails")])
+def test_the_hamiltonian_comes_nearer(section, tmp_path, grounds, fine, outcome):
+    """On a finer mesh its error must be less."""
+    table = pd.DataFrame(
+        {"intervals": [20, 80], "time_s": 1.0, "hamiltonian_error": [0.1, fine],
+         "hamiltonian_median_error": [0.01, fine]}
+    )  # fmt: skip
+    write_table(table, tmp_path / "meshes.csv")
+    assert _outcome(race_claims.hamiltonian_is_minus_one, section, tmp_path, grounds) == outcome
+
+
+@pytest.mark.parametrize(("angle", "outcome"), [(0.01, "holds"), (20.0, "fails")])
+def test_thrust_against_the_primer(section, tmp_path, grounds, angle, outcome):
+    """Turned by degrees it would not be against it."""
+    table = pd.DataFrame(
+        {"intervals": 20, "time_s": 1.0, "full_thrust_share": 0.99,
+         "primer_angle_median_deg": [angle, np.nan], "primer_angle_largest_deg": [angle, np.nan],
+         "sign_share": [np.nan, 1.0]}
+    )  # fmt: skip
+    write_table(table, tmp_path / "meshes.csv")
+    assert _outcome(race_claims.full_thrust_against_primer, section, tmp_path, grounds) == outcome
+
+
+@pytest.mark.parametrize(("whole", "outcome"), [(900.0, "holds"), (1100.0, "fails")])
+def test_several_rings_remedy_where_they_are_faster(section, tmp_path, grounds, whole, outcome):
+    """The whole course against its segments."""
+    _races(tmp_path, GREEDY, time_s=1000.0)
+    greedy = pd.read_csv(tmp_path / "races.csv")
+    _races(tmp_path, time_s=whole)
+    write_table(pd.concat([greedy, pd.read_csv(tmp_path / "races.csv")]), tmp_path / "races.csv")
+    assert _outcome(race_claims.whole_course_remedies, section, tmp_path, grounds) == outcome
+
+
+@pytest.mark.parametrize(("late", "outcome"), [(500.0, "holds"), (5000.0, "fails")])
+def test_printed_times_among_random_courses(section, tmp_path, grounds, late, outcome):
+    """Courses that take longer than the printed times would turn it about."""
+    _races(tmp_path)
+    table = pd.DataFrame({"rule": "generator", "time_s": [late, late + 1.0, late + 2.0]})
+    write_table(table, tmp_path / "random-courses.csv")
+    assert _outcome(own_claims.published_among_random, section, tmp_path, grounds) == outcome
