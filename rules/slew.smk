@@ -48,6 +48,12 @@ step(
 )
 step(
     "slew",
+    "models",
+    published=["values.csv"],
+    makes=["models.csv", "models-flights.parquet", "models-not-converged.csv"],
+)
+step(
+    "slew",
     "observations",
     reads=[
         "flights.parquet",
@@ -61,6 +67,7 @@ step(
         "trade-off-not-converged.csv",
         "degradation-not-converged.csv",
         "tracking-not-converged.csv",
+        "models-not-converged.csv",
     ],
     published=["values.csv"],
     makes=["observations.csv", "not-converged.csv"],
@@ -83,4 +90,6 @@ JUDGED["slew"] = [
     "propagator.csv",
     "trade-off.csv",
     "trade-off-plans.parquet",
+    "models.csv",
+    "models-flights.parquet",
 ]

@@ -4,7 +4,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from smallsat.studies.slew.evidence import claims
+from smallsat.studies.slew.evidence import claims, model_claims, torque_claims
+from smallsat.studies.slew.methods.models import LEFT, PEAKS
 
 QUARTER, HALF = "90 deg", "180 deg"
 
@@ -148,3 +149,134 @@ def test_our_plans_are_all_asked(judged, change, feasible, constant):
     }
     assert judged(claims.plans_are_feasible, tables) == feasible
     assert judged(claims.hamiltonian_is_constant, tables) == constant
+
+
+def flights(**columns):
+    """Both eigenaxis turns, at rest and without torque but for what is said."""
+    rows = {"time_s": [0.0, 100.0], "omega_z": [0.0, 0.02], "u_x": 0.0, "u_y": 0.0, "u_z": 1e-4}
+    table = pd.DataFrame(rows | columns)
+    return {
+        "flights.parquet": pd.concat(
+            [table.assign(flight=f"eigenaxis {case}") for case in ("quarter", "half")]
+        )
+    }
+
+
+def test_the_eigenaxis_turns_use_one_wheel_and_end_moving(judged):
+    """A torque about x of a twentieth, and a rate below what the document calls rest."""
+    assert judged(claims.z_wheel_alone, flights()) == "holds"
+    assert judged(claims.z_wheel_alone, flights(u_x=5e-6)) == "fails"
+    assert judged(claims.eigenaxis_not_at_rest, flights()) == "holds"
+    assert judged(claims.eigenaxis_not_at_rest, flights(omega_z=1e-5)) == "fails"
+
+
+def test_the_environment_costs_torque_if_the_law_uses_more_with_it(judged):
+    """Torque all the time is more than the flight without environment uses, half of it is less."""
+    predicate = torque_claims.eigenaxis_fights_environment
+    assert judged(predicate, flights()) == "holds"
+    assert judged(predicate, flights(u_z=5e-5)) == "fails"
+
+
+@pytest.mark.parametrize(("cost", "outcome"), [(5.3e-3, "holds"), (5.4358e-3, "fails")])
+def test_a_saving_by_the_environment_is_a_hundredth(judged, cost, outcome):
+    """Of the plan without it."""
+    plans = pd.DataFrame(
+        {
+            "plan": [f"{QUARTER}, segments", f"{QUARTER}, no gravity gradient, segments"],
+            "held_converged": True,
+            "held_cost_N_m_s": [cost, 5.4370e-3],
+        }
+    )
+    assert judged(torque_claims.environment_saves_torque, {"plans.csv": plans}) == outcome
+
+
+@pytest.mark.parametrize(("cost", "outcome"), [(9.6e-3, "holds"), (9.73e-3, "fails")])
+def test_a_path_saves_against_the_turn_about_one_axis(judged, cost, outcome):
+    """By hand that takes 9.7345 mN m s in 130 s."""
+    plans = {"plan": [f"{HALF}, 130 s"], "duration_s": 130.0, "held_cost_N_m_s": cost}
+    still = pd.DataFrame({f"{n}_{a}": [0.0] for n in ("omega", "h") for a in "xyz"})
+    tables = {
+        "trade-off.csv": pd.DataFrame(plans | {"converged": True, "held_converged": True}),
+        "trade-off-plans.parquet": still.assign(plan=f"{HALF}, 130 s"),
+    }
+    assert judged(torque_claims.path_saves_torque, tables) == outcome
+
+
+def test_torque_about_z_and_both_respects_follow_the_print(judged):
+    """A smaller peak would save torque; a larger one than the law's would not outperform it."""
+    peak = "section-vi-b/maximum-angular-momentum-usage/180-deg-torque-optimal"
+    for printed, z_less, better in (
+        ({}, "fails", "holds"),
+        ({f"{peak}/z": "40.0"}, "holds", "holds"),
+        ({f"{peak}/y": "60.0"}, "fails", "fails"),
+    ):
+        assert judged(torque_claims.z_torque_significantly_less, flights(), printed) == z_less
+        assert judged(torque_claims.better_in_both_respects, {}, printed) == better
+
+
+def quarter_plan(nodes, tilt=0.0):
+    times = 50.0 * (np.polynomial.legendre.leggauss(nodes)[0] + 1.0)
+    return pd.DataFrame(
+        {
+            "plan": f"{QUARTER}, one segment",
+            "node": 1,
+            "time_s": times,
+            "q_1": np.sin(tilt / 2.0),
+            "q_2": 0.0,
+        }
+    )
+
+
+def test_points_that_follow_the_motion_are_told_from_fixed_ones(judged):
+    """A plan whose points were moved; and one that tilts by a half right angle."""
+    plan = quarter_plan(12)
+    tables = {"plan-nodes.parquet": plan}
+    assert judged(claims.points_cluster_for_the_motion, tables) == "fails"
+    assert judged(claims.near_eigenaxis, tables) == "holds"
+    moved = plan.assign(time_s=plan["time_s"] ** 2 / 100.0)
+    assert judged(claims.points_cluster_for_the_motion, {"plan-nodes.parquet": moved}) == "holds"
+    tilted = {"plan-nodes.parquet": quarter_plan(12, tilt=np.pi / 4.0)}
+    assert judged(claims.near_eigenaxis, tilted) == "fails"
+
+
+@pytest.mark.parametrize(("rate", "outcome"), [(1e-5, "holds"), (1e-3, "fails")])
+def test_a_plan_at_rest_is_below_the_printed_bound(judged, rate, outcome):
+    """0.01 deg/s are 1.7e-4 rad/s."""
+    end = {f"omega_{axis}": [rate] for axis in "xyz"} | {"flight": f"{QUARTER}, one segment"}
+    assert judged(claims.plan_comes_to_rest, {"replays.parquet": pd.DataFrame(end)}) == outcome
+
+
+@pytest.mark.parametrize(
+    ("wheels", "euler", "outcome"),
+    [(5.0, 1.0, "holds"), (1.0, 5.0, "fails"), (5.0, 4.0, "undecided")],
+)
+def test_models_are_told_apart_by_half_the_distance(judged, wheels, euler, outcome):
+    """The nearest plan of each counts."""
+    off = {"printed": [0.0], "wheels' momentum": [wheels, 9.0]}
+    off["Euler's equation alone"] = [9.0, euler]
+    table = pd.DataFrame(
+        [
+            {"model": model, "reading": "J w", "rate_weight": 1.0, "off_printed_pct": one}
+            for model, several in off.items()
+            for one in several
+        ]
+    )
+    table = table.assign(**dict.fromkeys([*PEAKS, *LEFT], 1.0))
+    assert judged(model_claims.printed_run_is_eulers, {"models.csv": table}) == outcome
+
+
+@pytest.mark.parametrize(
+    ("given", "outcome"),
+    [((0.0, 0.0), "undecided"), ((0.01, 0.0), "holds"), ((0.0, 0.01), "fails")],
+)
+def test_gyroscopic_torque_is_asked_of_both_models(judged, given, outcome):
+    """A spin about z of 0.02 rad/s with momentum about x, of the body or of the wheels alone."""
+    wheels, body = given
+    spin = {"omega_y": 0.0, "omega_z": 0.02, "h_y": 0.0, "h_z": 0.126 * 0.02, "time_s": 95.0}
+    rows = [
+        {"flight": "wheels' momentum", "omega_x": 0.01, "h_x": 0.059 * 0.01 + wheels},
+        {"flight": "Euler's equation alone", "omega_x": 0.0 if body else 0.01, "h_x": 0.0},
+    ]
+    table = pd.DataFrame([row | spin for row in rows])
+    predicate = model_claims.gyroscopic_torques_deflect_the_end
+    assert judged(predicate, {"models-flights.parquet": table}) == outcome

@@ -7,6 +7,7 @@ import pandas as pd
 
 from smallsat.evidence.claims import Judgement, judged
 from smallsat.evidence.grounds import Grounds
+from smallsat.optimal_control.gauss_pseudospectral import legendre_gauss
 from smallsat.studies.slew.configuration import Configuration
 from smallsat.studies.slew.evidence.observations import (
     MESHES,
@@ -46,7 +47,7 @@ def _least(grounds: Grounds, case: str) -> float:
     return float(grounds.rows("minimum-times.csv", case=case, converged=True)["duration_s"].iloc[0])
 
 
-def _turn_about_z(parameters: Parameters, case: str) -> None:
+def require_turn_about_z(parameters: Parameters, case: str) -> None:
     """Raise a LookupError unless a turn goes from no angles to a yaw: the claim is about that."""
     along = np.r_[parameters.initial[:2], parameters.targets[case][:2]]
     if np.abs(along).max() > ROUNDING or abs(parameters.initial[2]) > ROUNDING:
@@ -174,7 +175,7 @@ def eigenaxis_is_not_fastest(grounds: Grounds[Configuration]) -> Judgement:
     parameters = Parameters.from_section(grounds.section)
     texts, faster = [], []
     for case, name in parameters.names.items():
-        _, moment = _body_axis(parameters, case)
+        _, moment = body_axis(parameters, case)
         least = _least(grounds, f"{name}, wheels")
         angle = np.radians(parameters.angle_deg(case))
         alone = eigenaxis_time(angle, moment, parameters.torque, parameters.momentum)
@@ -183,7 +184,7 @@ def eigenaxis_is_not_fastest(grounds: Grounds[Configuration]) -> Judgement:
     return judged(all(faster), "; ".join(texts))
 
 
-def _body_axis(parameters: Parameters, case: str) -> tuple[str, float]:
+def body_axis(parameters: Parameters, case: str) -> tuple[str, float]:
     """The body axis that a turn is about and its moment, kg m^2.
 
     A LookupError where it is none, or no principal axis: a turn about it alone is then no motion by
@@ -201,7 +202,7 @@ def nutation_saves_torque(grounds: Grounds[Configuration]) -> Judgement:
     parameters = Parameters.from_section(grounds.section)
     plans = grounds.table("plans.csv").set_index("plan")
     row = plans.loc[f"{parameters.names['quarter']}, no gravity gradient, segments"]
-    axis, moment = _body_axis(parameters, "quarter")
+    axis, moment = body_axis(parameters, "quarter")
     angle = np.radians(parameters.angle_deg("quarter"))
     alone = eigenaxis_time(angle, moment, parameters.torque, parameters.momentum)
     if not row["held_converged"] == True or alone > parameters.duration:  # noqa: E712
@@ -254,10 +255,85 @@ def peak_of_another_controller(grounds: Grounds[Configuration]) -> Judgement:
     )
 
 
+def z_wheel_alone(grounds: Grounds[Configuration]) -> Judgement:
+    """Eigenaxis turns: the other two wheels must not work."""
+    parameters = Parameters.from_section(grounds.section)
+    for case in parameters.names:
+        require_turn_about_z(parameters, case)
+    flights = grounds.rows("flights.parquet")
+    share = float(flights[["u_x", "u_y"]].abs().max().max()) / parameters.torque
+    return judged(
+        share < AT_WORK,
+        f"the wheels about x and y give at most {share:.0e} of their torque",
+    )
+
+
+def eigenaxis_not_at_rest(grounds: Grounds[Configuration]) -> Judgement:
+    """Eigenaxis turns: at the end the rate must exceed what the document counts as rest."""
+    rest = grounds.ledger.value(f"{OPTIMAL}/final-angular-rate/90-deg-torque-optimal/z").value
+    names = Parameters.from_section(grounds.section).names
+    rates = {}
+    for case, name in names.items():
+        flown = grounds.rows("flights.parquet", flight=f"eigenaxis {case}")
+        rates[name] = float(np.degrees(flown["omega_z"].iloc[-1]))
+    left = ", ".join(f"{rate:.2f} deg/s after {name}" for name, rate in rates.items())
+    return judged(
+        all(abs(rate) > rest for rate in rates.values()),
+        f"left are {left}; the document calls less than {rest:g} deg/s rest",
+    )
+
+
+def plan_comes_to_rest(grounds: Grounds[Configuration]) -> Judgement:
+    """90 deg: our plan, flown in open loop, must end with rates below the printed bound."""
+    parameters = Parameters.from_section(grounds.section)
+    require_turn_about_z(parameters, "quarter")
+    rest = grounds.ledger.value(f"{OPTIMAL}/final-angular-rate/90-deg-torque-optimal/z").value
+    name = f"{parameters.names['quarter']}, {MESHES[-1]}"
+    end = grounds.rows("replays.parquet", flight=name).iloc[-1]
+    rate = float(np.degrees(end[[f"omega_{axis}" for axis in "xyz"]].abs().max()))
+    return judged(
+        rate < rest,
+        f"our plan, which is not the printed one, ends with at most {rate:.0e} deg/s about an axis",
+    )
+
+
+def near_eigenaxis(grounds: Grounds[Configuration]) -> Judgement:
+    """90 deg: the body's z axis must hardly tilt on our plan."""
+    parameters = Parameters.from_section(grounds.section)
+    require_turn_about_z(parameters, "quarter")
+    name = f"{parameters.names['quarter']}, {MESHES[-1]}"
+    tilt = float(_tilts(grounds.rows("plan-nodes.parquet", plan=name)).iloc[0])
+    return judged(
+        tilt < 10.0 * VISIBLE_DEG,
+        f"the z axis tilts by at most {tilt:.1g} deg on our plan, which is not the printed one",
+    )
+
+
+def points_cluster_for_the_motion(grounds: Grounds[Configuration]) -> Judgement:
+    """A plan's points must lie elsewhere than where their number alone puts them."""
+    parameters = Parameters.from_section(grounds.section)
+    nodes = grounds.rows("plan-nodes.parquet", node=1)
+    off = []
+    for case in parameters.names:
+        _, plan = chosen_plan(nodes, "plan", parameters, case, MESHES[-1])
+        if len(plan):
+            fixed, _ = legendre_gauss(len(plan))
+            found = 2.0 * plan["time_s"].to_numpy() / parameters.duration - 1.0
+            off.append(float(np.abs(found - fixed).max()))
+    if not off:
+        raise LookupError("there is no plan in one segment")
+    return judged(
+        max(off) > INDEPENDENT_MISS,
+        f"the points lie at the roots of the Legendre polynomial, to {max(off):.0e} of half the "
+        f"time, in both turns: they cluster at the ends for any motion, and not for this one. "
+        f"That they are dense where the rates change fast is true",
+    )
+
+
 def better_than_eigenaxis(grounds: Grounds[Configuration]) -> Judgement:
     """90 deg: yaw error and peak momentum in the fuller model are compared, open loop with PD."""
     parameters = Parameters.from_section(grounds.section)
-    _turn_about_z(parameters, "quarter")
+    require_turn_about_z(parameters, "quarter")
     found = []
     for table, name in (
         ("replays.parquet", f"{parameters.names['quarter']}, one segment"),
@@ -279,7 +355,7 @@ def eigenaxis_stays_on_axis(grounds: Grounds[Configuration]) -> Judgement:
     """Roll and pitch of all eigenaxis flights must stay small."""
     parameters = Parameters.from_section(grounds.section)
     for case in parameters.names:
-        _turn_about_z(parameters, case)
+        require_turn_about_z(parameters, case)
     flights = grounds.table("flights.parquet")
     largest = float(np.abs(angles_deg(flights.iloc[::10])[:, :2]).max())
     return judged(
@@ -290,7 +366,7 @@ def eigenaxis_stays_on_axis(grounds: Grounds[Configuration]) -> Judgement:
 def open_loop_follows(grounds: Grounds[Configuration]) -> Judgement:
     """90 deg: the torque history flown open loop is compared with the plan."""
     parameters = Parameters.from_section(grounds.section)
-    _turn_about_z(parameters, "quarter")
+    require_turn_about_z(parameters, "quarter")
     name = f"{parameters.names['quarter']}, {MESHES[-1]}"
     flown = grounds.rows("replays.parquet", flight=name)
     nodes = grounds.rows("plan-nodes.parquet", plan=name)
@@ -316,7 +392,7 @@ def _end_error_deg(parameters: Parameters, flown: pd.DataFrame) -> float:
 
 def half_turn_off_eigenaxis(grounds: Grounds[Configuration]) -> Judgement:
     """180 deg: the body's z axis must tilt on feasible plans."""
-    _turn_about_z(Parameters.from_section(grounds.section), "half")
+    require_turn_about_z(Parameters.from_section(grounds.section), "half")
     tilts = _tilts(grounds.rows("trade-off-plans.parquet"))
     falling = len(tilts) > 1 and tilts.is_monotonic_decreasing
     order = ", the more the shorter the time" if falling else ""
@@ -341,7 +417,7 @@ def path_like_a_cardioid(grounds: Grounds[Configuration]) -> Judgement:
     Both begin and end at the vertical, where the cardioid has its cusp, and are turned, mirrored
     and scaled to fit the path in the inertial x-y plane.
     """
-    _turn_about_z(Parameters.from_section(grounds.section), "half")
+    require_turn_about_z(Parameters.from_section(grounds.section), "half")
     plans = grounds.rows("trade-off-plans.parquet")
     plan = plans[plans["plan"] == plans["plan"].iloc[0]]
     tilt = _tilts(plan).iloc[0]
@@ -443,7 +519,7 @@ def transition_matrix_keeps_length(grounds: Grounds[Configuration]) -> Judgement
 def not_the_global_minimum(grounds: Grounds[Configuration]) -> Judgement:
     """90 deg: the least torque that the printed peak takes is compared with a plan of ours."""
     parameters = Parameters.from_section(grounds.section)
-    _turn_about_z(parameters, "quarter")
+    require_turn_about_z(parameters, "quarter")
     peak, left = (
         grounds.ledger.value(f"{OPTIMAL}/{name}/90-deg-torque-optimal/z")
         for name in ("maximum-angular-momentum-usage", "final-angular-momentum-usage")

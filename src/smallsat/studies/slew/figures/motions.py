@@ -12,6 +12,7 @@ from mpl_toolkits.mplot3d import Axes3D
 
 from smallsat.drawing.figure import Drawing
 from smallsat.dynamics.attitude.quaternions import quaternion_to_dcm
+from smallsat.studies.slew.methods.models import PEAKS, PRINTED, READINGS, carried_pct
 from smallsat.studies.slew.model.simulation import angles_deg, usage_pct
 from smallsat.studies.slew.parameters import Parameters
 
@@ -87,15 +88,28 @@ def history(plan: pd.DataFrame, parameters: Parameters, title: str = "") -> Draw
     for panel, label in zip(panels, labels, strict=True):
         panel.set(xlabel="time [s]", title=label)
     panels[2].set_ylim(-1.1e3 * parameters.torque, 1.1e3 * parameters.torque)
-    return _titled(figure, panels, title), data
+    if title:
+        figure.suptitle(title, fontsize=8.5)
+    for panel in panels:
+        # Below the panel: the curves leave no room in it.
+        panel.legend(
+            loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2, fontsize=7, handlelength=1.3
+        )
+    return _frozen(figure), data
 
 
-def traces(flown: pd.DataFrame, title: str = "") -> Drawing:
-    """Paths of the tips of the body axes on the unit sphere, in the inertial frame."""
+def traces(flown: pd.DataFrame, title: str = "", waypoints: pd.DataFrame | None = None) -> Drawing:
+    """Paths of the tips of the body axes on the unit sphere, in the inertial frame.
+
+    ``waypoints`` are the points of the plan that is flown, drawn as crosses.
+    """
     rows = flown.iloc[:: 5 * THINNED]
     if rows.index[-1] != flown.index[-1]:
         rows = pd.concat([rows, flown.tail(1)])
     tips = np.array([quaternion_to_dcm(tuple(q)) for q in rows[QUATERNION].to_numpy()])
+    planned = None
+    if waypoints is not None:
+        planned = np.array([quaternion_to_dcm(tuple(q)) for q in waypoints[QUATERNION].to_numpy()])
     figure = new_figure(figsize=(4.6, 4.2))
     figure.set_layout_engine("none")
     axes: Axes3D = figure.add_axes((0.0, 0.0, 1.0, 0.94), projection="3d")
@@ -117,13 +131,24 @@ def traces(flown: pd.DataFrame, title: str = "") -> Drawing:
             axes.text(*(1.2 * path[-1] + LIFT), f"${axis}_f$", color=colour, ha="center")
         for j, name in enumerate(AXES):
             data[f"{axis}_axis_{name}"] = path[:, j]
+        if planned is not None:
+            axes.plot(*planned[:, i].T, "x", color=colour, ms=4, mew=0.9)
     limits = (-0.85, 0.85)
     axes.set(xlim=limits, ylim=limits, zlim=limits)
     axes.set_box_aspect((1, 1, 1), zoom=1.25)
     axes.view_init(elev=28, azim=38)
     axes.set_axis_off()
-    figure.text(0.5, 0.965, title or "paths of the body axes", ha="center", fontsize=8)
-    return figure, pd.DataFrame(data)
+    figure.text(0.5, 0.995, title or "paths of the body axes", ha="center", va="top", fontsize=8)
+    drawn = pd.DataFrame(data)
+    if planned is not None and waypoints is not None:
+        figure.text(
+            0.5, 0.02, "lines: flown; crosses: points of the plan", ha="center", fontsize=7.5
+        )
+        names = [f"{axis}_axis_{name}" for axis in AXES for name in AXES]
+        points = pd.DataFrame(planned.reshape(len(planned), -1), columns=names)
+        points.insert(0, "time_s", waypoints["time_s"].to_numpy())
+        drawn = pd.concat([drawn.assign(drawn="flown"), points.assign(drawn="plan")])
+    return figure, drawn
 
 
 def environment(table: pd.DataFrame, assumptions: str, lever_mm: float) -> Drawing:
@@ -186,11 +211,64 @@ def trade_off(table: pd.DataFrame, printed: float, least: float, bound: float) -
             )  # fmt: skip
             panel.legend()
         panel.set_xlim(left=start)
-    left.text(0.02, 0.03, "dark: proven impossible\nlight: below the least\ntime found",
-              transform=left.transAxes, fontsize=7)  # fmt: skip
+    bands = "dark: impossible with wheels'\nmomentum, proven; light:\nbelow the least time found"
+    left.text(0.02, 0.03, bands, transform=left.transAxes, fontsize=7)
     data = good[["duration_s", "held_cost_N_m_s", *[f"held_peak_{a}_pct" for a in AXES]]]
     data = pd.concat([data, lost[["duration_s"]]]) if len(lost) else data
     return figure, data.assign(least_time_s=least, bound_s=bound)
+
+
+def models(flights: pd.DataFrame, table: pd.DataFrame, parameters: Parameters) -> Drawing:
+    """Momentum used in the larger turn by two models, by two readings, and the printed peaks.
+
+    Parameters
+    ----------
+    flights
+        ``models-flights.parquet``.
+    table
+        ``models.csv``.
+    parameters
+        The study's parameters.
+    """
+    if flights.empty:
+        return missing("no plan by either model")
+    printed = table[table["model"] == PRINTED].iloc[0]
+    names, weights = (list(dict.fromkeys(flights[key])) for key in ("flight", "rate_weight"))
+    figure, panels = subplots(
+        len(weights),
+        len(names),
+        figsize=(6.3, 1.2 + 1.8 * len(weights)),
+        sharex=True,
+        sharey=True,
+        squeeze=False,
+    )
+    drawn = []
+    for (name, weight), flown in flights.groupby(["flight", "rate_weight"], sort=False):
+        rows = flown.iloc[::THINNED]
+        panel = panels[weights.index(weight), names.index(name)]
+        data = rows[["flight", "rate_weight", "time_s"]].reset_index(drop=True)
+        for reading, used in carried_pct(rows, parameters).items():
+            for i, axis in enumerate(AXES):
+                solid = reading == READINGS[0]
+                label = f"$|{axis}|$" if solid else None
+                data[f"{reading}, {axis}_pct"] = np.abs(used[:, i])
+                panel.plot(
+                    rows["time_s"], np.abs(used[:, i]), "-" if solid else "--", color=f"C{i}",
+                    lw=1.1, label=label,
+                )  # fmt: skip
+        for i, peak in enumerate(PEAKS):
+            panel.axhline(printed[peak], color=f"C{i}", lw=0.8, ls=":")
+        panel.set_title(f"{name}, rate weight {weight:g}", fontsize=8)
+        drawn.append(data)
+    for panel in panels[-1]:
+        panel.set_xlabel("time [s]")
+    for panel in panels[:, 0]:
+        panel.set_ylabel("momentum used [%]")
+    panels[0, 0].legend(fontsize=7)
+    figure.suptitle(
+        f"solid: {READINGS[0]}; dashed: {READINGS[1]}; dotted: printed peaks", fontsize=8
+    )
+    return _frozen(figure), pd.concat(drawn, ignore_index=True)
 
 
 def degradation(table: pd.DataFrame) -> Drawing:

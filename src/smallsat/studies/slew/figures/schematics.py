@@ -2,6 +2,7 @@
 
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.patches import FancyBboxPatch
 from matplotlib.patheffects import withStroke
 from matplotlib.pyplot import figure as new_figure
@@ -43,20 +44,21 @@ def onboard_propagator(section: Configuration) -> Drawing:
     """Figure 17: the on-board propagator."""
     step = section.onboard.step_s
     boxes: Boxes = {
-        "elements": (1.6, 4.4, "Keplerian elements\nto state"),
-        "gravity": (5.4, 4.4, "gravity with $J_2$"),
-        "orbit": (9.0, 4.4, f"orbit integrator\nthird order, {step:g} s"),
-        "torque": (1.6, 1.4, "gravity gradient,\ndrag, control"),
-        "rates": (5.4, 1.4, "Euler's equation\nwith wheels"),
-        "stm": (9.0, 1.4, "closed-form\nattitude transition"),
+        "elements": (1.6, 4.7, "Keplerian elements\nto state"),
+        "orbit": (5.4, 4.7, f"orbit integrator\nthird order, {step:g} s"),
+        "gravity": (9.0, 4.7, "gravity with $J_2$"),
+        "torque": (1.6, 1.7, "gravity gradient,\ndrag, control"),
+        "rates": (5.4, 1.7, "Euler's equation\nwith wheels"),
+        "stm": (9.0, 1.7, "closed-form\nattitude transition"),
     }
     arrows: Arrows = [
-        ("elements", "gravity", "$r_0, v_0$"),
+        ("elements", "orbit", "$r_0, v_0$"),
+        ("orbit", "gravity", "$r$"),
         ("gravity", "orbit", "$a$"),
-        ("torque", "rates", "$T$"),
+        ("orbit", "torque", "$r, v$"),
+        ("torque", "rates", "$T, u$"),
         ("rates", "stm", r"$\omega$"),
-        ("orbit", "stm", "time"),
-        ("elements", "torque", "$r$"),
+        ("stm", "torque", r"$q, \omega$"),
     ]
     return _diagram(boxes, arrows, (10.8, 5.8), (6.3, 3.0))
 
@@ -65,25 +67,30 @@ def fuller_model(section: Configuration) -> Drawing:
     """Figure 18: the fuller model in which plans are flown."""
     rate, step = section.resampling_hz, section.numerics.step_s
     boxes: Boxes = {
-        "profile": (1.6, 4.4, f"torque profile\n{rate:g} Hz, linear"),
-        "wheels": (5.4, 4.4, "wheels: torque and\nmomentum limits"),
-        "body": (9.0, 4.4, f"attitude and rate\nRunge-Kutta, {step:g} s"),
-        "orbit": (1.6, 1.4, "orbit with $J_2$"),
-        "air": (5.4, 1.4, "exponential\natmosphere, panels"),
-        "torques": (9.0, 1.4, "gravity gradient\nand drag torque"),
+        "profile": (1.6, 4.7, f"torque profile\n{rate:g} Hz, linear"),
+        "wheels": (5.4, 4.7, "wheels: torque and\nmomentum limits"),
+        "body": (9.0, 4.7, f"attitude and rate\nRunge-Kutta, {step:g} s"),
+        "orbit": (1.6, 1.7, "orbit with $J_2$"),
+        "air": (5.4, 1.7, "exponential\natmosphere, panels"),
+        "torques": (9.0, 1.7, "gravity gradient\nand drag torque"),
     }
     arrows: Arrows = [
         ("profile", "wheels", "$u$"),
         ("wheels", "body", "$u, h$"),
-        ("orbit", "air", "$r, v$"),
+        ("orbit", "air", "$r$"),
         ("air", "torques", r"$\rho$"),
+        ("orbit", "torques", "$r, v$"),
         ("torques", "body", "$T$"),
+        ("body", "torques", "$q$"),
     ]
     return _diagram(boxes, arrows, (10.8, 5.8), (6.3, 3.0))
 
 
 def spacecraft(section: Configuration) -> Drawing:
-    """Figure 19: the body to scale, its panels and axes; the booms are not to scale."""
+    """Figure 19: the body to scale, its panels and axes; the booms are not to scale.
+
+    They lie along the axis of the least moment of inertia, as booms for the gravity gradient do.
+    """
     table = panels(section.spacecraft)
     size = section.spacecraft.size_m
     sides = np.array([size.breadth, size.length, size.height])
@@ -97,11 +104,16 @@ def spacecraft(section: Configuration) -> Drawing:
             corners[np.array(quads)], facecolors="#9fc3e0", edgecolors="0.35", alpha=0.45, lw=0.8
         )
     )
+    along = int(np.argmin(np.diag(np.array(section.spacecraft.inertia_kg_m2))))
     for sign in (1.0, -1.0):
-        ends = np.array([[0.0, 0.0, sign * sides[2] / 2], [0.0, 0.0, sign * 0.2]])
+        ends = np.zeros((2, 3))
+        ends[:, along] = sign * sides[along] / 2, sign * 0.2
         axes.plot(*ends.T, color="0.4", lw=1.2)
         axes.plot(*ends[1], "o", color="0.4", ms=5)
-    axes.text(0.0, 0.02, -0.195, "boom, length not printed", fontsize=7, color="0.3")
+    figure.text(
+        0.02, 0.08, f"booms along ${'xyz'[along]}$, of the least moment: length not printed",
+        fontsize=7, color="0.3",
+    )  # fmt: skip
     for direction, name, colour in zip(np.eye(3), "xyz", ("C0", "C1", "C2"), strict=True):
         length = {"x": 0.17, "y": 0.21, "z": 0.13}[name]
         axes.quiver(0, 0, 0, *(length * direction), color=colour, arrow_length_ratio=0.12, zorder=9)
@@ -129,6 +141,19 @@ def spacecraft(section: Configuration) -> Drawing:
     return figure, pd.DataFrame(rows)
 
 
+def _around(axes: Axes, a: np.ndarray, b: np.ndarray, half_height: float, label: str) -> None:
+    """An arrow that goes below the boxes between its ends."""
+    low = a[1] - half_height - 0.55
+    axes.plot([a[0], a[0], b[0]], [a[1] - half_height, low, low], color="0.3", lw=1.0)
+    axes.annotate(
+        "",
+        (b[0], b[1] - half_height),
+        (b[0], low),
+        arrowprops={"arrowstyle": "-|>", "color": "0.3"},
+    )
+    axes.text((a[0] + b[0]) / 2.0, low + 0.28, label, ha="center", va="center", fontsize=7.5)
+
+
 def _diagram(
     boxes: Boxes, arrows: Arrows, extent: tuple[float, float], size: tuple[float, float]
 ) -> Drawing:
@@ -149,9 +174,17 @@ def _diagram(
             )
         )
         axes.text(x, y, text, ha="center", va="center", fontsize=7.5)
+    between = {(start, end) for start, end, _ in arrows}
     for start, end, label in arrows:
         a, b = np.array(boxes[start][:2]), np.array(boxes[end][:2])
         way = b - a
+        if way[1] == 0.0 and abs(way[0]) > 2.0 * extent[0] / 3.0:
+            _around(axes, a, b, half_height, label)
+            continue
+        # An arrow there and one back lie side by side.
+        if (end, start) in between:
+            aside = np.array([-way[1], way[0]]) / np.linalg.norm(way)
+            a, b = a + 0.22 * aside, b + 0.22 * aside
         # From edge to edge of the boxes.
         share = min(
             half_width / abs(way[0]) if way[0] else np.inf,
@@ -163,6 +196,8 @@ def _diagram(
             side = np.array([-0.75, 0.4])
         else:
             side = np.array([0.0, 0.32]) if abs(way[0]) > abs(way[1]) else np.array([0.55, 0.0])
+            if (end, start) in between:
+                side = np.linalg.norm(side) * aside
         x, y = (tail + head) / 2 + side
         axes.text(x, y, label, ha="center", va="center", fontsize=7.5)
     rows = [{"from": boxes[a][2], "to": boxes[b][2], "signal": label} for a, b, label in arrows]

@@ -1,4 +1,8 @@
-"""A time below which no plan makes a turn: a bound that needs no optimiser."""
+"""A time below which no plan makes a turn: a bound that needs no optimiser.
+
+It holds where the wheels' momentum takes part in the gyroscopic torque: by Euler's equation alone
+J w is not what the wheels and the environment gave.
+"""
 
 import numpy as np
 
@@ -115,5 +119,6 @@ def plan_titles(section: Configuration, case: str) -> dict[str, str]:
     feasible, least = plan_names(parameters, case, "one segment")
     return {
         feasible: "",
-        least: f"least infeasible plan: {why} from rest to rest in {parameters.duration:g} s",
+        least: "least infeasible plan, with the wheels' momentum in the gyroscopic torque:\n"
+        f"{why} from rest to rest in {parameters.duration:g} s",
     }

@@ -44,8 +44,14 @@ def replay(
     section: Configuration,
     torques: np.ndarray,
     duration: float,
+    *,
+    carried: bool = True,
     drag: float = 1.0,
 ) -> pd.DataFrame:
-    """Torques at the resampling rate, flown in open loop; ``drag`` is a factor of the density."""
+    """Torques at the resampling rate, flown in open loop.
+
+    ``carried`` and ``drag`` are those of `plant`: wheels' momentum, and a factor of the density.
+    """
     command = open_loop(parameters, 1.0 / section.resampling_hz, torques)
-    return run(parameters, plant(parameters, drag=drag), command, duration, section.numerics.step_s)
+    body = plant(parameters, carried=carried, drag=drag)
+    return run(parameters, body, command, duration, section.numerics.step_s)

@@ -120,6 +120,7 @@ def problem(
     *,
     least_time: bool = False,
     soft: bool = False,
+    rate_weight: float = 1.0,
 ) -> OptimalControlProblem:
     """Least time, least torque, or (``soft``) the least miss of the end conditions.
 
@@ -136,6 +137,8 @@ def problem(
     soft
         Minimise the squared attitude error, rad^2, plus the squared rate in units of 1/T, and leave
         the end free.
+    rate_weight
+        Factor of the rate in that sum, before it is squared.
 
     Notes
     -----
@@ -151,7 +154,7 @@ def problem(
             # Four times the squared vector part is the squared angle of a small turn; with the
             # squared cosine it stays a measure of large ones.
             error = attitude_error(x[:4], target)
-            return 4.0 * ca.dot(error, error) + ca.dot(x[4:7], x[4:7])
+            return 4.0 * ca.dot(error, error) + rate_weight**2 * ca.dot(x[4:7], x[4:7])
         return final if least_time else 0.0
 
     def running_cost(x: Any, u: Any, t: Any, p: Any) -> Any:

@@ -70,14 +70,16 @@ class HeldPlan:
     rate_miss: float
 
 
-def guidance_model(parameters: Parameters, torque: float | None = None, unit: float = 0.0) -> Model:
-    """The spacecraft as the guidance knows it: wheels with momentum, gravity gradient."""
+def guidance_model(
+    parameters: Parameters, torque: float | None = None, unit: float = 0.0, *, carried: bool = True
+) -> Model:
+    """The spacecraft as the guidance knows it: gravity gradient, and wheels that carry momentum."""
     return Model(
         parameters.inertia,
         parameters.torque if torque is None else torque,
         parameters.momentum,
         unit or parameters.duration,
-        True,
+        carried,
         parameters,
     )
 
@@ -177,11 +179,17 @@ def hold(
 
 
 def least_infeasible(
-    model: Model, parameters: Parameters, case: str, duration: float, mesh: Mesh, numerics: Numerics
+    model: Model,
+    parameters: Parameters,
+    case: str,
+    duration: float,
+    mesh: Mesh,
+    numerics: Numerics,
+    rate_weight: float = 1.0,
 ) -> tuple[Result, Solution]:
     """The plan that misses its end least, and the failed solve of the problem as it stands.
 
-    The miss is the squared attitude error, rad^2, plus the squared rate times T^2.
+    The miss is the squared attitude error, rad^2, plus the squared rate times weight and T.
     """
     target = parameters.targets[case]
     window = (duration, duration)
@@ -189,7 +197,8 @@ def least_infeasible(
     refused = hard.solve(
         turning_guess(model, parameters.initial, target, duration, (0.2, 0.0)), [1.0]
     ).solution
-    soft = Guidance(model, problem(model, parameters.initial, target, window, soft=True), mesh)
+    missing = problem(model, parameters.initial, target, window, soft=True, rate_weight=rate_weight)
+    soft = Guidance(model, missing, mesh)
     results = [
         soft.solve(turning_guess(model, parameters.initial, target, duration, tilt), [1.0])
         for tilt in tilts(numerics.starts, numerics.seed)[: 3 if mesh.segments == 1 else 5]

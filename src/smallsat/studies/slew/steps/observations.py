@@ -9,7 +9,7 @@ from smallsat.studies.slew.evidence.observations import observations, timings
 from smallsat.studies.slew.parameters import Parameters
 
 # Steps that solve, and list what they did not solve in a table of their own.
-SOLVING = ("minimum-times", "plans", "trade-off", "degradation", "tracking")
+SOLVING = ("minimum-times", "plans", "trade-off", "degradation", "tracking", "models")
 
 
 def run(step: Step[Configuration]) -> Tables:
