@@ -210,7 +210,10 @@ def test_torque_about_z_and_both_respects_follow_the_print(judged):
         ({f"{peak}/z": "40.0"}, "holds", "holds"),
         ({f"{peak}/y": "60.0"}, "fails", "fails"),
     ):
-        assert judged(torque_claims.z_torque_significantly_less, flights(), printed) == z_less
+        tables = flights()
+        plan = tables["flights.parquet"].head(2).assign(flight="a model", rate_weight=1.0)
+        tables["models-flights.parquet"] = plan
+        assert judged(torque_claims.z_torque_significantly_less, tables, printed) == z_less
         assert judged(torque_claims.better_in_both_respects, {}, printed) == better
 
 
@@ -261,7 +264,7 @@ def test_models_are_told_apart_by_half_the_distance(judged, wheels, euler, outco
             for one in several
         ]
     )
-    table = table.assign(**dict.fromkeys([*PEAKS, *LEFT], 1.0))
+    table = table.assign(**dict.fromkeys([*PEAKS, *LEFT, "pitch_deg"], 1.0))
     assert judged(model_claims.printed_run_is_eulers, {"models.csv": table}) == outcome
 
 

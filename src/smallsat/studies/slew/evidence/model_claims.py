@@ -28,7 +28,8 @@ def printed_run_is_eulers(grounds: Grounds[Configuration]) -> Judgement:
     printed = grounds.rows("models.csv", model=PRINTED).iloc[0]
     texts = "; ".join(
         f"{_momenta(row)} by {row['model']}, read as {row['reading']}, with the rate weighted by "
-        f"{row['rate_weight']:g} (off by {row['off_printed_pct']:.1f})"
+        f"{row['rate_weight']:g} (off by {row['off_printed_pct']:.1f}; "
+        f"pitch left {row['pitch_deg']:.1f} deg)"
         for row in nearest
     )
     wheels, euler = (row["off_printed_pct"] for row in nearest)
@@ -37,8 +38,8 @@ def printed_run_is_eulers(grounds: Grounds[Configuration]) -> Judgement:
         outcome = "holds" if euler < wheels else "fails"
     return Judgement(
         outcome,
-        f"printed are peaks and momenta left of {_momenta(printed)}; of the plans that miss their "
-        f"end least the nearest have {texts}. An inference: the printed iterate is unknown, and "
+        f"printed are peaks and momenta left of {_momenta(printed)}, and {printed['pitch_deg']:g} "
+        f"deg of pitch; of the plans that miss their end least the nearest have {texts}. An inference: the printed iterate is unknown, and "
         f"the weights were chosen after an exploration",
     )
 

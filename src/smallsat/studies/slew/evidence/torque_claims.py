@@ -102,21 +102,28 @@ def gyroscopic_share(motion: pd.DataFrame, parameters: Parameters, *, carried: b
 
 
 def z_torque_significantly_less(grounds: Grounds[Configuration]) -> Judgement:
-    """180 deg: the least torque about z that the printed peak takes is compared with the law's."""
+    """180 deg: torque about z of our plans, and what the printed peak takes, against the law's."""
     parameters = Parameters.from_section(grounds.section)
     require_turn_about_z(parameters, "half")
     where = f"{OPTIMAL}/{{}}-angular-momentum-usage/180-deg-torque-optimal/z"
     peak, left = (grounds.ledger.value(where.format(name)).value for name in ("maximum", "final"))
     # The wheel takes up the peak and gives back all but what is left.
     least = (2.0 * peak - left) / 100.0 * parameters.momentum
-    flown = grounds.rows("flights.parquet", flight="eigenaxis half")
-    law = float(np.trapezoid(flown["u_z"].abs(), flown["time_s"]))
+    law = _about_z(grounds.rows("flights.parquet", flight="eigenaxis half"))
+    plans = grounds.rows("models-flights.parquet").groupby(["flight", "rate_weight"])
+    ours = min(_about_z(flown) for _, flown in plans)
     return judged(
-        1.0 - least / law >= SIGNIFICANT,
-        f"to reach the printed peak about z and come back to what is left takes {1e3 * least:.2f} "
-        f"mN m s at the least, {100 * (1.0 - least / law):.0f} % less than the eigenaxis law uses, "
-        f"if what is printed is what the wheel's torque adds up to",
+        1.0 - min(least, ours) / law >= SIGNIFICANT,
+        f"the eigenaxis law uses {1e3 * law:.2f} mN m s about z, our plans of either model "
+        f"{1e3 * ours:.2f} at the least. To reach the printed peak and come back to what is left "
+        f"takes {1e3 * least:.2f} at the least, {100 * (1.0 - least / law):.0f} % less than the "
+        f"law, if what is printed is what the wheel's torque adds up to",
     )
+
+
+def _about_z(flown: pd.DataFrame) -> float:
+    """Integral of the torque's size about z over a flight, N m s."""
+    return float(np.trapezoid(flown["u_z"].abs(), flown["time_s"]))
 
 
 def better_in_both_respects(grounds: Grounds) -> Judgement:
