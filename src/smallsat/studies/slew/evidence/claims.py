@@ -136,7 +136,8 @@ def printed_run_misses(grounds: Grounds[Configuration]) -> Judgement:
         all(fits),
         f"J w of the printed rates is {', '.join(texts)}, printed values in brackets: equal within "
         f"the digits. With so much rate left the bound, of the model whose wheels carry momentum, "
-        f"allows {path:.0f} deg, so the printed run is possible as a run that ends short of its target, not as one that meets it",
+        f"allows {path:.0f} deg, so the printed run is possible as a run that ends short of its "
+        f"target, not as one that meets it",
     )
 
 

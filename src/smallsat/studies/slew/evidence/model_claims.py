@@ -39,8 +39,9 @@ def printed_run_is_eulers(grounds: Grounds[Configuration]) -> Judgement:
     return Judgement(
         outcome,
         f"printed are peaks and momenta left of {_momenta(printed)}, and {printed['pitch_deg']:g} "
-        f"deg of pitch; of the plans that miss their end least the nearest have {texts}. An inference: the printed iterate is unknown, and "
-        f"the weights were chosen after an exploration",
+        f"deg of pitch; of the plans that miss their end least the nearest have {texts}. An "
+        f"inference: the printed iterate is unknown, and the weights were chosen after an "
+        f"exploration",
     )
 
 
