@@ -112,7 +112,7 @@ def traces(flown: pd.DataFrame, title: str = "", waypoints: pd.DataFrame | None 
         planned = np.array([quaternion_to_dcm(tuple(q)) for q in waypoints[QUATERNION].to_numpy()])
     figure = new_figure(figsize=(4.6, 4.2))
     figure.set_layout_engine("none")
-    axes: Axes3D = figure.add_axes((0.0, 0.0, 1.0, 0.94), projection="3d")
+    axes: Axes3D = figure.add_axes((0.0, 0.0, 1.0, 0.91), projection="3d")
     around, up = np.meshgrid(np.linspace(0, 2 * np.pi, 37), np.linspace(0, np.pi, 19))
     axes.plot_wireframe(
         np.cos(around) * np.sin(up), np.sin(around) * np.sin(up), np.cos(up),
@@ -138,7 +138,7 @@ def traces(flown: pd.DataFrame, title: str = "", waypoints: pd.DataFrame | None 
     axes.set_box_aspect((1, 1, 1), zoom=1.25)
     axes.view_init(elev=28, azim=38)
     axes.set_axis_off()
-    figure.text(0.5, 0.995, title or "paths of the body axes", ha="center", va="top", fontsize=8)
+    figure.text(0.5, 0.995, title or "paths of the body axes", ha="center", va="top", fontsize=7)
     drawn = pd.DataFrame(data)
     if planned is not None and waypoints is not None:
         figure.text(
