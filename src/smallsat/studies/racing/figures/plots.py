@@ -495,8 +495,9 @@ def thrust_figure(sweep: pd.DataFrame) -> Figure:
     right.loglog(thrusts, ordered["largest_ring_multiplier_s_m"], "o-", color=PURPLE, ms=3)
     missing = ordered[ordered[f"{OPTIMAL} (s)"].isna()]["thrust_m_s2"]
     for axes in (left, middle, right):
-        for thrust in missing:
-            axes.axvline(thrust, color=VERMILION, ls=":", lw=1.0, label="no plan found")
+        for place, thrust in enumerate(missing):
+            label = "no plan at rest at the end" if place == 0 else "_"
+            axes.axvline(thrust, color=VERMILION, ls=":", lw=1.0, label=label)
         axes.set_xlabel("thrust (m/s$^2$)")
     right.axhline(1.0, color=VERMILION, ls="--", lw=1.0)
     right.text(
@@ -505,5 +506,5 @@ def thrust_figure(sweep: pd.DataFrame) -> Figure:
     left.set_ylabel("time (s)")
     middle.set_ylabel("delta-v (m/s)")
     right.set_ylabel("a metre of miss saves (s)")
-    left.legend(fontsize=6, loc="lower left")
+    left.legend(fontsize=5.5, loc="upper right")
     return figure
