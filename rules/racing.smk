@@ -114,9 +114,7 @@ JUDGED["racing"] = [
     "random-positions.csv",
     "dynamic-programming.csv",
     "course-scenario-1.csv",
-    *[
-        f"{kind}-scenario-1-{table}"
-        for kind in ("listing", "optima")
-        for table in ("segments.csv", "trajectories.parquet")
-    ],
+    "listing-scenario-1-trajectories.parquet",
+    "optima-scenario-1-segments.csv",
+    "optima-scenario-1-trajectories.parquet",
 ]

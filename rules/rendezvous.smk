@@ -21,7 +21,8 @@ GROUPS = {
 }
 # Groups that no claim rests on are flown with the configured set alone.
 NO_MEMBER_HAS = ("passages",)
-GROUP_TABLES = [f"studies/{group}.parquet" for group in GROUPS]
+# What the summaries compare; ablations are for the claims alone.
+SUMMARISED = [f"studies/{group}.parquet" for group in GROUPS if group != "ablations"]
 FLIGHTS = ["flights.parquet", "paths.parquet", "phases.csv", "truth.csv"]
 INFERRED = [
     "inference.parquet",
@@ -136,7 +137,7 @@ step(
 step(
     "rendezvous",
     "summaries",
-    reads=GROUP_TABLES,
+    reads=SUMMARISED,
     makes=[
         f"studies/{name}.csv"
         for name in (

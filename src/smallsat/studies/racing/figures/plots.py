@@ -242,7 +242,7 @@ def segment_figure(course: Course, paths: pd.DataFrame, segment: int) -> Figure:
     low, high = optimal.min(axis=0) - SIDE_MARGIN, optimal.max(axis=0) + SIDE_MARGIN
     # Our solve of the listing is followed aside, though not everywhere.
     astray = np.clip((positions(own) - before) @ view[1], low[1] - ASTRAY_M, high[1] + ASTRAY_M)
-    low[1], high[1] = min(low[1], *astray), max(high[1], *astray)
+    low[1], high[1] = min([low[1], *astray]), max([high[1], *astray])
     shape = float((high - low)[1] / (high - low)[0])
     tall = float(np.clip(0.85 * SIDE_WIDTH * shape, 0.8, 2.6))
     figure = plt.figure(figsize=(WIDTH, 2.0 * tall + 1.3))
