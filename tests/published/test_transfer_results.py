@@ -8,6 +8,7 @@ import pytest
 
 from smallsat.studies.transfer.evidence.printed_cases import printed_cases
 from smallsat.studies.transfer.evidence.printed_stop import chance_of_hits
+from smallsat.studies.transfer.results import CASE_TABLES
 
 # Best known final times of direct multiple shooting with free polynomials, to six decimals: the
 # figures an independent computation found for the same problem. Ours must match or beat them.
@@ -24,18 +25,7 @@ ROUNDING = 5e-7
 @pytest.fixture(scope="module")
 def results(tested_run):
     folder = tested_run / "data/results/transfer"
-    return {
-        name: pd.read_csv(folder / f"{name}.csv")
-        for name in (
-            "indirect",
-            "as-published",
-            "converged",
-            "unbounded",
-            "continuous",
-            "multistart",
-            "tighter_bounds",
-        )
-    }
+    return {name: pd.read_csv(folder / f"{name}.csv") for name in CASE_TABLES}
 
 
 def test_unbounded_runs_match_or_beat_the_best_known(results):
