@@ -281,7 +281,7 @@ def _not_computed(case: Case) -> Outcome | None:
 def _interval(case: Case) -> Outcome | None:
     """Consistent or unreproducible: agreement with a sample, or under inferred parameters.
 
-    Equal digits are no reproduction here: another sample or inference would give others. Where a
+    Equal digits are no reproduction here: another sample or inference would give others. Where
     a rule judges its numbers jointly, each has the verdict of their sum, whose interval a run has.
     A printed upper bound must lie above the whole interval.
     """

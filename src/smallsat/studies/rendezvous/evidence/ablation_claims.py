@@ -9,6 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
+from smallsat.dynamics.units import MINUTE
 from smallsat.evidence.claims import Judgement, Outcome
 from smallsat.evidence.effects import above, below, judgement, negative
 from smallsat.evidence.grounds import Grounds
@@ -91,8 +92,8 @@ def penalty_is_not_needed(grounds: Grounds) -> Judgement:
     )
     return Judgement(
         judged.outcome,
-        f"{judged.evidence}; it may help: far ranges take {time[0] / 60:.1f} min with and "
-        f"{time[1] / 60:.1f} min without it",
+        f"{judged.evidence}; it may help: far ranges take {time[0] / MINUTE:.1f} min with and "
+        f"{time[1] / MINUTE:.1f} min without it",
     )
 
 
