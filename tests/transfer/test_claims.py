@@ -156,6 +156,19 @@ def test_the_mass_term_is_told_by_the_hamiltonian(config, grounds, changed_resul
     assert not errata.hamiltonian_exhaust(given).holds
 
 
+# Proof of an equation by its value at the final radius, and where the printed form has the same one.
+COINCIDENT = {"lagrange_gravity": 1.0, "generalised_force": float(np.tan(0.4))}
+
+
+@pytest.mark.parametrize("name", COINCIDENT)
+def test_a_radius_at_which_both_forms_agree_proves_nothing(config, grounds, tmp_path, name):
+    """The value that tells the equations apart is computed, and there it does not."""
+    prove, problem = getattr(errata, name), config.transfer.problem
+    assert prove(grounds("transfer", config.transfer, tmp_path)).holds
+    section = config.transfer.with_(problem=problem.with_(final_radius=COINCIDENT[name]))
+    assert not prove(grounds("transfer", section, tmp_path)).holds
+
+
 def test_a_converged_grid_that_rises_proves_no_nesting(config, grounds, changed_results):
     """If ours rose with the degree too, the printed rises would show nothing."""
     change = put("final_time", 3.2480, degree=4, intervals=4)
