@@ -156,7 +156,7 @@ def test_the_mass_term_is_told_by_the_hamiltonian(config, grounds, changed_resul
     assert not errata.hamiltonian_exhaust(given).holds
 
 
-# Proof of an equation by its value at the final radius, and where the printed form has the same one.
+# Proof of an equation by its value at the final radius, and where the printed form has it too.
 COINCIDENT = {"lagrange_gravity": 1.0, "generalised_force": float(np.tan(0.4))}
 
 
