@@ -9,7 +9,7 @@ export PIP_USER := 0
 PIP := $(VENV)/bin/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := all
-.PHONY: all test what-ifs lint animations benchmark benchmark-baseline lock clean
+.PHONY: all test explain what-ifs lint animations benchmark benchmark-baseline lock clean
 
 all: $(VENV)/installed
 	@snakemake all
@@ -34,6 +34,10 @@ $(VENV)/installed: requirements.lock pyproject.toml
 test: $(VENV)/installed
 	@SMALLSAT_OPENED=$(CURDIR)/runs/tests/opened snakemake verdicts --configfile config/tests.yaml
 	@python -m pytest -n 2 --dist loadfile --cov --cov-report=term --cov-report=html
+
+# All that is known of a printed value, erratum, claim, table or figure; RUN=runs/<name> for a what-if.
+explain: $(VENV)/installed
+	@python -m smallsat explain "$$ID" $(if $(RUN),--run "$$RUN")
 
 # Modest changes of every study, one line each: done, refused with the reason, or not converged.
 what-ifs: $(VENV)/installed

@@ -14,6 +14,7 @@ COMMANDS = {
     "judge": "smallsat.evidence.judge",
     "merge": "smallsat.evidence.merge",
     "summary": "smallsat.evidence.summary",
+    "explain": "smallsat.workflow.explain",
     "content": "smallsat.report.content",
     "typeset": "smallsat.report.typesetting",
 }

@@ -1,10 +1,15 @@
 """Matching ledger ids to the entries of the YAML files that speak of them."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from fnmatch import fnmatchcase
 from typing import Any
 
 from smallsat.errors import InputError
+
+
+def names(entry: Mapping[str, Any], identifier: str) -> bool:
+    """Whether the ``ids`` patterns of an entry name an id."""
+    return any(fnmatchcase(identifier, pattern) for pattern in entry.get("ids") or ())
 
 
 def match_entries(

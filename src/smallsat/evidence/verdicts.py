@@ -25,7 +25,7 @@ VERDICTS = (
 PENDING = "pending"
 FOUND = ("difference", "tolerance", "verdict", "reason")
 NAMED = ("id", "document", "locator", "quantity", "case", "component")
-VERDICT_COLUMNS = (*NAMED, "printed", "computed", "unit", *FOUND)
+VERDICT_COLUMNS = (*NAMED, "printed", "computed", "unit", *FOUND, "source")
 TEXT_COLUMNS = ("case", "component", "printed", "unit")
 # Kinds of rules; each rule is of one of them.
 RULE_KINDS = (
@@ -171,7 +171,8 @@ def judge(
             else printed_of[identifier],
         )
         outcome = next(found for ask in JUDGES if (found := ask(case)))
-        judged.append({name: row.get(name, "") for name in VERDICT_COLUMNS} | outcome)
+        source = {"source": case.runs[-1]["source"] if case.runs else ""}
+        judged.append({name: row.get(name, "") for name in VERDICT_COLUMNS} | outcome | source)
     return pd.DataFrame(judged, columns=list(VERDICT_COLUMNS))
 
 

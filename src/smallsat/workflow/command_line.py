@@ -7,8 +7,10 @@ answered in one line, and the user's own settings of Python and Jupyter stay out
 
 import os
 import sys
+from argparse import ArgumentParser
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 from smallsat.workflow.isolation import isolated
 
@@ -79,14 +81,31 @@ def check_settings(words: Sequence[str]) -> None:
                 read_overlay(Path(value))
 
 
+def unlimited(make_parser: Callable[..., ArgumentParser]) -> Callable[..., ArgumentParser]:
+    """Snakemake's maker of its parser, whose jobs a timespan have no limit unless one is given.
+
+    Under a limit the scheduler wakes itself once a second more for each job that it has started,
+    and each time asks for the size of every input of every job that is ready: minutes of processor
+    time in a build of two hundred jobs.
+    """
+
+    def maker(*arguments: Any, **named: Any) -> ArgumentParser:
+        parser = make_parser(*arguments, **named)
+        parser.set_defaults(max_jobs_per_timespan=None)
+        return parser
+
+    return maker
+
+
 def main() -> None:
     """Run Snakemake with the words of this call."""
-    from snakemake.cli import main as run_snakemake
+    from snakemake import cli
 
     words = understood(sys.argv[1:])
     check_settings(words)
     sys.argv = ["snakemake", *words]
-    run_snakemake()
+    cli.get_argument_parser = unlimited(cli.get_argument_parser)
+    cli.main()
 
 
 def snakemake() -> None:

@@ -1,0 +1,13 @@
+"""The command ``snakemake`` of the environment, beside what the README's commands show."""
+
+from snakemake import cli
+
+from smallsat.workflow.command_line import unlimited
+
+
+def test_jobs_have_no_limit_a_timespan_unless_one_is_given():
+    """Snakemake's own limit costs more processor time the more jobs there are."""
+    parser = unlimited(cli.get_argument_parser)()
+    assert parser.parse_args([]).max_jobs_per_timespan is None
+    given = parser.parse_args(["--max-jobs-per-timespan", "5/1s"])
+    assert given.max_jobs_per_timespan.max_jobs == 5
