@@ -12,7 +12,7 @@ IN_FULL = (
     "echo 'mars: {visibility_deg: 40}' > my.yaml",
     f"snakemake {FIGURE} --configfile my.yaml",
     "snakemake -n",
-    "make explain ID=table-8/sigma-b-n-at-t-4400-s/full",
+    "make explain ID=4400-s/full-mission/1",
 )
 
 
