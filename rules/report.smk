@@ -25,10 +25,11 @@ for report, shown in REPORTS.items():
                 for path in sorted((PUBLISHED / study).glob("*"))
                 if path.name in ("artefacts.csv", "extras.yaml")
             ],
-            # Whether a study has a chapter stands in the content.
+            # Whether a study has a chapter and a summary stands in the content.
             chapters=[
                 project(path.relative_to(ROOT))
-                for path in sorted((ROOT / "report/chapters").glob("*.typ"))
+                for folder in ("chapters", "summaries")
+                for path in sorted((ROOT / "report" / folder).glob("*.typ"))
                 if path.stem in shown
             ],
             verdicts=[] if prefix else "data/results/verdicts.csv",

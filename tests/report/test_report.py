@@ -78,10 +78,16 @@ def project(tmp_path_factory):
     """The project's own templates around a small ledger."""
     folder = tmp_path_factory.mktemp("project")
     shutil.copytree(PROJECT / "report", folder / "report", ignore=shutil.ignore_patterns("build"))
-    # Chapters quote values of the whole ledger.
-    for chapter in (folder / "report/chapters").glob("*.typ"):
-        chapter.unlink()
-    (folder / "report/chapters").mkdir(exist_ok=True)
+    # Chapters and summaries quote values of the whole ledger.
+    for part in ("chapters", "summaries"):
+        shutil.rmtree(folder / "report" / part)
+        (folder / "report" / part).mkdir()
+    (folder / "report/summaries/transfer.typ").write_text(
+        '#import "/report/parts/content.typ": printed, number-of, claims-with\n'
+        '#let picture = ("figures/transfer/fig-01", "A line that rises.")\n'
+        '#let holds = [Half of it: #printed("transfer/a") s comes out; results reproduced: '
+        '#number-of("transfer", "reproduced"), claims that fail: #claims-with("transfer", "fails").]'
+    )
     (folder / "report/chapters/transfer.typ").write_text(
         '#import "/report/parts/content.typ": setting, printed, computed\n'
         '$ dot(r) = v $ with radius #setting("transfer.radius"), degrees '
@@ -178,11 +184,28 @@ def test_the_page_links_figures_as_files_and_every_link_leads_somewhere(reproduc
             assert (reproduction / link).exists(), link
 
 
-def test_what_did_not_hold_stands_on_the_front(reproduction):
-    front = Page(reproduction / "report.html").text
-    front = front.split("What did not hold")[2].split("How to read this report")[0]
+def test_the_front_says_what_was_found(reproduction):
+    """Two sentences with numbers of the results, a described picture, the shares, what fails."""
+    page = Page(reproduction / "report.html")
+    front = page.text.split("How to read this report")[1]
+    for words in (
+        "Half of it: 3.24694 s comes out; results reproduced: 1, claims that fail: 1.",
+        "2 results: 1 reproduced, 1 mismatch",
+        "1 claims: 1 fails",
+        "What fails",
+        "mismatch transfer/b: printed -0.7555",
+    ):
+        assert words in front
+    text = (reproduction / "report.html").read_text()
+    assert 'alt="A line that rises."' in text
+    assert 'aria-label="2 results: 1 reproduced, 1 mismatch"' in text
+
+
+def test_what_did_not_hold_ends_a_chapter(reproduction):
+    """Mismatches, errata and claims, each with its reason."""
+    last = Page(reproduction / "report.html").text.rpartition("What did not hold")[2]
     for finding in ("transfer/b", "two mass rows are copies", "the time falls"):
-        assert finding in front
+        assert finding in last
 
 
 def test_both_formats_are_byte_identical_when_built_again(project, reproduction):
@@ -232,7 +255,7 @@ def test_a_broken_template_is_named_and_the_old_report_stays(project, reproducti
     assert report.read_bytes() == before
 
 
-def test_an_erratum_gives_printed_and_correct_on_the_front(reproduction):
+def test_an_erratum_gives_printed_and_correct(reproduction):
     front = Page(reproduction / "report.html").text
     copies = "two mass rows are copies"
     assert f"erratum {copies}: printed: {copies}; correct: {copies}." in front
@@ -240,7 +263,7 @@ def test_an_erratum_gives_printed_and_correct_on_the_front(reproduction):
 
 def test_a_case_without_a_solution_is_listed_with_what_was_tried(reproduction):
     text = Page(reproduction / "report.html").text
-    for words in ("Not converged", "indirect, K = 4", "residual 2.0e-03", "guess; continuation"):
+    for words in ("not converged", "indirect, K = 4", "residual 2.0e-03", "guess; continuation"):
         assert words in text
 
 

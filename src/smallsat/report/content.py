@@ -88,13 +88,14 @@ def collect(
                 for kind in ("table", "figure", "animation")
             },
         }
-        chapter = project / f"report/chapters/{name}.typ"
         document |= _study(own, shown, results / name, published / name)
         document["not_converged"] = [
             {**row, "residual": _cell(row["residual"])}
             for row in records(unsolved[unsolved["study"] == name])
         ]
-        document["chapter"] = f"/report/chapters/{name}.typ" if chapter.exists() else None
+        for part, folder in (("chapter", "chapters"), ("summary", "summaries")):
+            path = f"report/{folder}/{name}.typ"
+            document[part] = f"/{path}" if (project / path).exists() else None
         documents.append(document)
     return {
         "run": _run(project, run, config, default),
