@@ -86,7 +86,8 @@ def project(tmp_path_factory):
         '#import "/report/parts/content.typ": printed, number-of, claims-with\n'
         '#let picture = ("figures/transfer/fig-01", "A line that rises.")\n'
         '#let holds = [Half of it: #printed("transfer/a") s comes out; results reproduced: '
-        '#number-of("transfer", "reproduced"), claims that fail: #claims-with("transfer", "fails").]'
+        '#number-of("transfer", "reproduced"), claims that fail: '
+        '#claims-with("transfer", "fails").]'
     )
     (folder / "report/chapters/transfer.typ").write_text(
         '#import "/report/parts/content.typ": setting, printed, computed\n'
