@@ -154,15 +154,3 @@ def test_a_killed_run_resumes(make_project):
     assert resumed.returncode == 0, resumed.stdout + resumed.stderr
     assert {path: path.stat().st_mtime_ns for path in kept} == kept
     assert (killed / target).read_bytes() == (undisturbed / target).read_bytes()
-
-
-def test_a_what_if_with_fewer_cases(make_project):
-    """Cases of the document that are left out take their figures with them, and nothing fails."""
-    project = make_project()
-    few = 'transfer={"degrees": [2], "intervals": [2], "numerics": {"multistart": 2}}'
-    done = project.snakemake("transfer", "--config", "run=few", few, timeout=600)
-    assert done.returncode == 0, done.stdout + done.stderr
-    folder = project.folder / "runs/few"
-    assert (folder / "data/results/transfer/tables/table-4.csv").exists()
-    assert (folder / "figures/transfer/fig-25.svg").exists()
-    assert not (folder / "figures/transfer/fig-27.svg").exists()

@@ -31,3 +31,9 @@ def test_a_quick_what_if(project, what_if):
     outcome = what_ifs.run(what_if, command, project.folder, env=project.environment)
     assert what_ifs.met(what_if, outcome), outcome
     assert not (project.folder / "data/results").exists()
+    # Cases of the document that are left out take their figures with them.
+    if what_if.run == "what-if-transfer-few-cases":
+        folder = project.folder / "runs" / what_if.run
+        assert (folder / "data/results/transfer/tables/table-4.csv").exists()
+        assert (folder / "figures/transfer/fig-25.svg").exists()
+        assert not (folder / "figures/transfer/fig-27.svg").exists()
