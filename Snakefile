@@ -67,6 +67,7 @@ rule all:
     default_target: True
     input:
         rules.report.output,
+        rules.site.output,
         "data/results/verdicts.accepted",
         [report_tables(study) for study in STUDIES],
         [report_figures(study) for study in STUDIES],

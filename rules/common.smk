@@ -147,6 +147,9 @@ MADE = {study: [] for study in STUDIES}
 # What the verdicts of a study rest on; each study's rule file says it.
 JUDGED = {}
 
+# What the scenes of a study, to turn and play, are made of; each study's rule file says it.
+SCENES = {}
+
 # Cases that no solver solved, a table a study.
 NOT_CONVERGED = [f"data/results/{study}/not-converged.csv" for study in STUDIES]
 

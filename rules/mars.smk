@@ -15,3 +15,5 @@ step(
 step("mars", "independent_check", makes=["independent.parquet"])
 
 JUDGED["mars"] = ["observations.csv", "trajectories.parquet", "day.parquet", "independent.parquet"]
+
+SCENES["mars"] = ["trajectories.parquet"]

@@ -118,3 +118,13 @@ JUDGED["racing"] = [
     "optima-scenario-1-segments.csv",
     "optima-scenario-1-trajectories.parquet",
 ]
+
+SCENES["racing"] = [
+    name
+    for scenario in SCENARIOS
+    for name in (
+        f"course-{scenario}.csv",
+        f"listing-{scenario}-trajectories.parquet",
+        f"optima-{scenario}-trajectories.parquet",
+    )
+]

@@ -183,3 +183,5 @@ JUDGED["rendezvous"] = [
     ],
     *[f"studies/{group}.parquet" for group in GROUPS if group not in NO_MEMBER_HAS],
 ]
+
+SCENES["rendezvous"] = ["paths.parquet"]

@@ -3,9 +3,9 @@
 # of its own, for a what-if that leaves the others as they are.
 TEMPLATES = [
     project(path.relative_to(ROOT))
-    for path in sorted((ROOT / "report").rglob("*"))
-    if path.suffix in (".typ", ".css") and path.name != "report.typ"
-]
+    for folder in ("parts", "chapters", "summaries")
+    for path in sorted((ROOT / "report" / folder).glob("*.typ"))
+] + [project("report/style.css")]
 TIMINGS = [path for study in STUDIES for path in MADE[study] if Path(path).name == "timings.csv"]
 REPORTS = {"report": STUDIES} | {study: [study] for study in STUDIES}
 
@@ -96,6 +96,51 @@ for report, shown in REPORTS.items():
         shell:
             "python -m smallsat typeset {input.content} --project {params.project}"
             " --output {output.pdf} {output.html} > {log} 2>&1"
+
+
+# The pages link figures, notebooks and the PDF, which are there when the report is.
+rule site:
+    input:
+        sources=sources(
+            "smallsat.site.pages",
+            *[
+                f"smallsat.studies.{study}.{module}"
+                for study in SCENES
+                for module in ("configuration", "figures.interactive")
+            ],
+        ),
+        content="report/build/report.json",
+        report="report/build/report.pdf",
+        template=project("report/report.typ"),
+        parts=TEMPLATES,
+        pages=[
+            project(path.relative_to(ROOT)) for path in sorted((ROOT / "report/site").glob("*.*"))
+        ],
+        published=[
+            project(path.relative_to(ROOT))
+            for path in sorted(PUBLISHED.glob("*/*.*"))
+            if path.suffix in (".yaml", ".csv")
+        ],
+        drawings=[project(f"notebooks/{study}/figures.yaml") for study in STUDIES],
+        findings=[
+            path
+            for study in STUDIES
+            for path in results(study, "verdicts.csv", "errata.csv", "claims.csv")
+        ],
+        results=[path for study, names in SCENES.items() for path in results(study, *names)],
+    output:
+        directory("report/build/site"),
+    log:
+        "logs/report/site.log",
+    benchmark:
+        "logs/report/site.benchmark.tsv"
+    params:
+        project=lambda w, input: Path(input.template).parents[1],
+    message:
+        "Write the web site, report/build/site"
+    shell:
+        "python -m smallsat site {input.content} --project {params.project} --output {output}"
+        " > {log} 2>&1"
 
 
 rule animations:

@@ -93,3 +93,5 @@ JUDGED["slew"] = [
     "models.csv",
     "models-flights.parquet",
 ]
+
+SCENES["slew"] = ["replays.parquet"]

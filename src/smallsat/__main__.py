@@ -17,6 +17,7 @@ COMMANDS = {
     "explain": "smallsat.workflow.explain",
     "content": "smallsat.report.content",
     "typeset": "smallsat.report.typesetting",
+    "site": "smallsat.site.pages",
 }
 
 

@@ -2,6 +2,7 @@
 
 import argparse
 import re
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Literal
 
@@ -27,21 +28,39 @@ def compile_report(content: Path, project: Path, output: Path) -> None:
     InputError
         Naming the template or file that Typst stumbled over.
     """
-    # Typst names files from the root, which is the project.
-    root = project.resolve()
-    run = output.resolve().parents[2].relative_to(root).as_posix()
-    kind: Literal["pdf", "html"] = "html" if output.suffix == ".html" else "pdf"
-    output.parent.mkdir(parents=True, exist_ok=True)
     partial = output.with_name(f".{output.name}.partial")
+    partial.write_bytes(_typeset(content, project, "html" if output.suffix == ".html" else "pdf"))
+    partial.replace(output)
+
+
+def compile_part(content: Path, project: Path, part: str, up: str) -> str:
+    """One part of the report as a page: ``front``, or the chapter of a study by its name.
+
+    Parameters
+    ----------
+    content, project
+        As for `compile_report`.
+    up
+        Path from the page that it becomes a part of to the folder of the run.
+    """
+    return _typeset(content, project, "html", {"part": part, "up": up}).decode()
+
+
+def _typeset(
+    content: Path, project: Path, kind: Literal["pdf", "html"], more: Mapping[str, str] = {}
+) -> bytes:
+    # Typst names files from the root, which is the project.
+    root, place = project.resolve(), content.resolve()
+    run = place.parents[2].relative_to(root).as_posix()
     inputs = {
-        "content": "/" + content.resolve().relative_to(root).as_posix(),
+        "content": "/" + place.relative_to(root).as_posix(),
         "run": "" if run == "." else f"/{run}",
         "format": kind,
+        **more,
     }
     try:
-        typst.compile(
+        return typst.compile(
             root / "report/report.typ",
-            output=partial,
             root=root,
             format=kind,
             sys_inputs=inputs,
@@ -49,8 +68,7 @@ def compile_report(content: Path, project: Path, output: Path) -> None:
             ignore_system_fonts=True,
         )
     except typst.TypstError as error:
-        raise InputError(f"{output}: not typeset: {error.message}{_place(error)}") from None
-    partial.replace(output)
+        raise InputError(f"{content}: not typeset: {error.message}{_place(error)}") from None
 
 
 def _place(error: typst.TypstError) -> str:

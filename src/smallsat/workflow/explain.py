@@ -6,6 +6,7 @@ import inspect
 import textwrap
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ from smallsat.evidence.patterns import names
 from smallsat.evidence.reference import resolve
 from smallsat.report.values import read_findings, records
 from smallsat.strict_yaml import read_yaml
-from smallsat.workflow.figures import read_runs
+from smallsat.workflow.figures import NotebookRun, read_runs
 
 WIDTH = 100
 LABEL = 12
@@ -99,8 +100,8 @@ def named(known: list[Subject], text: str) -> list[Subject]:
     )
 
 
-def explained(subject: Subject, project: Path, run: Path) -> str:
-    """All that is known of a subject, a labelled line each.
+def known_of(subject: Subject, project: Path, run: Path) -> list[tuple[str, str]]:
+    """All that is known of a subject: label and text of each thing that there is to say.
 
     Parameters
     ----------
@@ -110,9 +111,15 @@ def explained(subject: Subject, project: Path, run: Path) -> str:
         Folder of the run, with ``data/results``.
     """
     study = subject.study
-    lines = [("document", ", ".join(str(w) for w in (study.author, study.title, study.year) if w))]
-    lines += EXPLAIN[subject.sort](subject, project, run)
-    return "\n".join([subject.name, *(_wrapped(label, text) for label, text in lines if text)])
+    document = ", ".join(str(word) for word in (study.author, study.title, study.year) if word)
+    lines = [("document", document), *EXPLAIN[subject.sort](subject, project, run)]
+    return [(label, text) for label, text in lines if text]
+
+
+def explained(subject: Subject, project: Path, run: Path) -> str:
+    """What `known_of` finds, for the terminal."""
+    lines = known_of(subject, project, run)
+    return "\n".join([subject.name, *(_wrapped(label, text) for label, text in lines)])
 
 
 def _value(subject: Subject, project: Path, run: Path) -> Lines:
@@ -171,9 +178,8 @@ def _claim(subject: Subject, project: Path, run: Path) -> Lines:
 def _artefact(subject: Subject, project: Path, run: Path) -> Lines:
     row, study = subject.row, subject.study.name
     stem, _, suffix = row["target"].rpartition(".")
-    drawing = next(
-        (one for one in read_runs(project / "notebooks" / study) if _makes(one, stem)), None
-    )
+    drawings = _drawings(project / "notebooks" / study)
+    drawing = next((one for one in drawings if _makes(one, stem)), None)
     yield "caption", row["caption"]
     yield "kind", _join(row["kind"], row["class"])
     yield "file", row["target"] + ("" if (run / row["target"]).exists() else " (not built yet)")
@@ -189,23 +195,35 @@ def _artefact(subject: Subject, project: Path, run: Path) -> Lines:
 EXPLAIN = {"value": _value, "erratum": _erratum, "claim": _claim, "artefact": _artefact}
 
 
-def _makes(drawing: Any, stem: str) -> bool:
+@cache
+def _drawings(notebooks: Path) -> list[NotebookRun]:
+    return read_runs(notebooks)
+
+
+def _makes(drawing: NotebookRun, stem: str) -> bool:
     return stem in drawing.stems or stem == f"figures/{drawing.study}/{drawing.film}"
 
 
 def _finding(path: Path, key: str, name: str) -> dict[str, Any]:
     """The row of a table of verdicts, errata or claims; empty where it is not built."""
-    if not path.exists():
-        return {}
+    return _findings(path, key).get(name, {}) if path.exists() else {}
+
+
+@cache
+def _findings(path: Path, key: str) -> dict[str, dict[str, Any]]:
     table = read_findings(path)
-    rows = records(table[table[key] == name].astype(object).where(table.notna(), ""))
-    return rows[0] if rows else {}
+    return {row[key]: row for row in records(table.astype(object).where(table.notna(), ""))}
 
 
 def _entry(published: Path, file: str, identifier: str) -> dict[str, Any]:
     """The entry of a YAML file that names an id; empty where none does."""
-    entries = read_yaml(published / f"{file}.yaml") or []
+    entries = _entries(published / f"{file}.yaml")
     return next((entry for entry in entries if names(entry, identifier)), {})
+
+
+@cache
+def _entries(path: Path) -> list[dict[str, Any]]:
+    return read_yaml(path) or []
 
 
 def _rule(rule: dict[str, Any]) -> str:
@@ -216,6 +234,7 @@ def _rule(rule: dict[str, Any]) -> str:
     )
 
 
+@cache
 def _place(name: str, project: Path) -> str:
     """File and line of ``package.module:function``."""
     if not name:
