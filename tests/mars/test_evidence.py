@@ -72,6 +72,9 @@ def test_proof_fails_where_the_document_would_be_right(
     [
         ("visibility_overlap", "table-1-footnote/not-visible-lmo-gmo-angular-separation", "> 35"),
         ("table_8_misprint", "table-8/sigma-b-n-at-t-4400-s/full-mission/1", "-0.433"),
+        ("nadir_frame_sign", "section-vi-d/dcm-rnn-330-s/lmo/32", "0.4698"),
+        ("gain_name", "section-x-b/gain-1-6-in-summary-sentence", "1/180"),
+        ("gain_fraction", "section-x-b/k-intermediate-fraction", "(1/36)/5"),
         # The energy that follows from the printed formula.
         ("kinetic_energy_half", "section-ix-b/kinetic-energy-t-500-s/no-torque", "0.01877"),
         ("argument_of_latitude_start", "section-iii-c/inertial-position-r-lmo-450-s/lmo/x", "0.0"),

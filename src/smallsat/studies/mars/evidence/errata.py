@@ -80,16 +80,17 @@ def nadir_frame_sign(grounds: Grounds[Configuration]) -> Proof:
     section = grounds.section
     lmo = Parameters.from_section(section).lmo
     time = float(section.answer_times_s.reference_frames)
+    entry = grounds.ledger.value("section-vi-d/dcm-rnn-330-s/lmo/32")
     correct = np.array(nadir_frame(lmo, time))
     printed = correct.copy()
-    printed[2, 1] *= -1.0
+    printed[2, 1] = np.copysign(correct[2, 1], entry.value)
     by_equation_25 = np.sin(lmo.inclination) * np.cos(lmo.raan)
     before, after = _orthogonality_defect(printed), _orthogonality_defect(correct)
     return Proof(
         before > 0.1 and after < ORTHOGONAL and np.isclose(correct[2, 1], by_equation_25),
         f"entry (3,2) = {printed[2, 1]:.4f}: R R' differs from 1 by {before:.2f}",
         f"entry (3,2) = {correct[2, 1]:.4f}: R R' differs from 1 by {after:.0e}",
-        f"Eq. 25 makes the entry sin i cos Omega = {by_equation_25:+.4f}; with the other sign "
+        f"Eq. 25 makes the entry sin i cos Omega = {by_equation_25:+.4f}; with the printed sign "
         f"the third row is not normal to the others (largest entry of R R' - 1: {before:.2f})",
         correct=float(correct[2, 1]),
     )
@@ -161,35 +162,39 @@ def gmo_frame_roots(grounds: Grounds[Configuration]) -> Proof:
 
 
 def gain_name(grounds: Grounds[Configuration]) -> Proof:
-    """The summary's "K = 1/6" is P: with it as K the damping requirement is missed."""
+    """The summary calls both gains K: with the first as K the damping requirement is missed."""
     section = grounds.section
     parameters = Parameters.from_section(section)
     k, p = parameters.gains
-    wrong = damping_ratios(parameters.inertia, Gains(k=p, p=p)).max()
+    called_k = grounds.ledger.value("section-x-b/gain-1-6-in-summary-sentence").value
+    wrong = damping_ratios(parameters.inertia, Gains(k=called_k, p=p)).max()
     right = damping_ratios(parameters.inertia, parameters.gains).max()
     required = section.requirements.largest_damping_ratio
     return Proof(
-        np.isclose(right, required) and not np.isclose(wrong, required),
-        f"K = {p:.4f}: largest damping ratio {wrong:.2f}",
+        np.isclose(called_k, p) and np.isclose(right, required) and not np.isclose(wrong, required),
+        f"K = {called_k:.4f}: largest damping ratio {wrong:.2f}",
         f"K = {k:.4f}, P = {p:.4f}: largest ratio {right:.2f}",
-        f"Eq. 36 gives a largest damping ratio of {wrong:.3f} with K = {p:.4f} and "
-        f"of {right:.3f} with K = {k:.5f}; required is {required:g}",
+        f"Eq. 36 gives a largest damping ratio of {wrong:.3f} with K = {called_k:.4f} and "
+        f"of {right:.3f} with K = {k:.5f}; required is {required:g}, and by Eq. 35 P = {p:.4f}",
     )
 
 
 def gain_fraction(grounds: Grounds[Configuration]) -> Proof:
-    """The intermediate fraction (1/36)/(3/5) is not the printed result 1/180; (1/36)/5 is."""
+    """The printed intermediate fraction is not the K printed beside it; P^2 over I_2 is."""
     section = grounds.section
     parameters = Parameters.from_section(section)
     inertia, required = parameters.inertia.min(), section.requirements.largest_damping_ratio
+    literal = grounds.ledger.literal("section-x-b/k-intermediate-fraction")
     printed = grounds.ledger.value("section-x-b/k-intermediate-fraction").value
+    beside = grounds.ledger.value("section-x-b/gain-k")
     correct = parameters.gains.p**2 / (required**2 * inertia)
     return Proof(
-        np.isclose(correct, parameters.gains.k) and not np.isclose(printed, parameters.gains.k),
-        f"{printed:.5f}",
+        beside.matches(correct) and not beside.matches(printed),
+        f"{literal} = {printed:.5f}",
         f"{correct:.5f}",
-        f"P^2 over 3/5 is {printed:.5f}; P^2 over the smallest inertia {inertia:g} kg m^2 is "
-        f"{correct:.5f} N m, the K that is used; the 3 may be a slip of the transcription",
+        f"{literal} is {printed:.5f}, and the K printed beside it {beside.value:.5f}; P^2 over the "
+        f"smallest inertia {inertia:g} kg m^2 is {correct:.5f} N m, the K that is used; a digit of "
+        f"the fraction may be a slip of the transcription",
         correct=float(correct),
     )
 

@@ -13,21 +13,18 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from smallsat.dynamics.units import KM
+from smallsat.studies.mars.figures.colours import BODY_COLOURS
 from smallsat.studies.mars.figures.scenes import (
     ARROW,
     ARROW_LABEL,
-    BODY_COLOURS,
     HALO,
     MODE_TITLES,
-    NEAR,
     Scene,
-    draw_directions,
-    draw_mars,
-    draw_orbit,
+    draw_still,
     in_front,
     legend_handles,
     scene_in,
-    view,
+    scene_views,
 )
 from smallsat.studies.mars.model.modes import GMO
 from smallsat.studies.mars.parameters import Parameters
@@ -57,13 +54,8 @@ class _Moving:
     def __init__(self, figure: Figure, parameters: Parameters) -> None:
         self.parameters = parameters
         self.length = ARROW * parameters.lmo.radius / KM
-        wide = view(figure, (0.0, 0.06, 0.5, 0.88), 0.93 * parameters.gmo.radius / KM, zoom=1.45)
-        near = view(figure, (0.5, 0.06, 0.5, 0.88), NEAR * parameters.lmo.radius / KM, zoom=1.05)
-        draw_orbit(wide, parameters.gmo, parameters, "C3")
-        for axes in (wide, near):
-            draw_mars(axes, parameters.mars_radius / KM)
-            draw_orbit(axes, parameters.lmo, parameters, "C0")
-        draw_directions(figure, (0.38, 0.02, 0.24, 0.36))
+        wide, near = scene_views(figure, parameters)
+        draw_still(wide, near, parameters)
         figure.legend(handles=legend_handles(), loc="lower center", ncols=3, frameon=False)
 
         new: dict[str, Any] = {"animated": True}

@@ -5,11 +5,9 @@ from matplotlib.figure import Figure
 from matplotlib.pyplot import subplots
 
 from smallsat.dynamics.units import HOUR
+from smallsat.studies.mars.figures.colours import MODE_COLOURS, MODE_LABELS
 from smallsat.studies.mars.model.modes import MODE_NAMES
 from smallsat.studies.mars.parameters import MARS_DAY
-
-COLOURS = {"sun": "C4", "nadir": "C0", "gmo": "C2"}
-LABELS = {"sun": "Sun", "nadir": "nadir", "gmo": "GMO"}
 
 
 def mode_figure(intervals: pd.DataFrame, shares: pd.DataFrame) -> Figure:
@@ -18,8 +16,8 @@ def mode_figure(intervals: pd.DataFrame, shares: pd.DataFrame) -> Figure:
     for row, mode in enumerate(MODE_NAMES):
         chosen = intervals[intervals["mode"] == mode]
         spans = list(zip(chosen["start_s"] / HOUR, chosen["duration_s"] / HOUR, strict=True))
-        line.broken_barh(spans, (row - 0.4, 0.8), color=COLOURS[mode], lw=0)
-    line.set_yticks(range(len(MODE_NAMES)), [LABELS[mode] for mode in MODE_NAMES])
+        line.broken_barh(spans, (row - 0.4, 0.8), color=MODE_COLOURS[mode], lw=0)
+    line.set_yticks(range(len(MODE_NAMES)), [MODE_LABELS[mode] for mode in MODE_NAMES])
     line.invert_yaxis()
     line.set_xlim(0.0, intervals["end_s"].max() / HOUR)
     line.set_xlabel("time [h]")
@@ -30,9 +28,9 @@ def mode_figure(intervals: pd.DataFrame, shares: pd.DataFrame) -> Figure:
 
     left = 0.0
     for mode, percent in zip(shares["mode"], shares["share_percent"], strict=True):
-        share.barh(0, percent, left=left, color=COLOURS[mode])
+        share.barh(0, percent, left=left, color=MODE_COLOURS[mode])
         share.annotate(
-            f"{LABELS[mode]} {percent:.1f} %",
+            f"{MODE_LABELS[mode]} {percent:.1f} %",
             (left + percent / 2, 0.55),
             ha="center",
             va="bottom",

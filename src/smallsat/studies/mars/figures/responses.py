@@ -1,12 +1,21 @@
 """The document's nine-panel figure of a run: attitude, body rate and torque by component."""
 
+from collections.abc import Iterable
+
 import numpy as np
 import pandas as pd
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 from matplotlib.pyplot import subplots
+
+from smallsat.studies.mars.figures.colours import MODE_COLOURS, MODE_LABELS
+from smallsat.studies.mars.model.modes import timeline
 
 # The vector of MRPs jumps by about 2 where it goes over to its shadow set.
 JUMP = 1.0
+BAND = 0.14  # opacity of a mode's band
 AXES = "123"
 
 
@@ -23,7 +32,7 @@ def response_data(trajectories: pd.DataFrame, run: str) -> pd.DataFrame:
     run
         Its name in the column ``run``.
     """
-    data = trajectories[trajectories["run"] == run].drop(columns=["run", "mode"])
+    data = trajectories[trajectories["run"] == run].drop(columns=["run"])
     data = data.reset_index(drop=True)
     sigma = data[[f"sigma_{axis}" for axis in AXES]].to_numpy()
     names = [f"sigma_ref_{axis}" for axis in AXES]
@@ -37,8 +46,8 @@ def response_data(trajectories: pd.DataFrame, run: str) -> pd.DataFrame:
 def response_figure(data: pd.DataFrame) -> Figure:
     """Nine panels from `response_data`: columns sigma, omega and u, rows the components 1 to 3.
 
-    Curves of MRPs break where these go over to the shadow set. A run that overflowed is empty and
-    says so.
+    Curves of MRPs break where these go over to the shadow set, and bands tell the modes of a run
+    that has several. A run that overflowed is empty and says so.
     """
     figure, panels = subplots(3, 3, sharex=True, figsize=(6.3, 5.0))
     columns = (
@@ -63,9 +72,11 @@ def response_figure(data: pd.DataFrame) -> Figure:
         panel.set_xlabel("time [s]")
     if data["sigma_1"].isna().all():
         figure.text(0.5, 0.5, "not converged", ha="center", color="C3", fontsize=12)
-    lines = panels[0, 0].get_lines()
-    if len(lines) > 1:
-        figure.legend(lines, ["body", "reference frame"], loc="outside upper center", ncols=2)
+    keys = dict(zip(("body", "reference frame"), panels[0, 0].get_lines(), strict=False))
+    if data["mode"].nunique() > 1:
+        keys |= _mode_bands(data, panels.flat)
+    if len(keys) > 1:
+        figure.legend(keys.values(), keys, loc="outside upper center", ncols=len(keys))
     figure.align_ylabels(panels)
     # Laid out once, not again for each file format.
     layout = figure.get_layout_engine()
@@ -73,6 +84,19 @@ def response_figure(data: pd.DataFrame) -> Figure:
     layout.execute(figure)
     figure.set_layout_engine("none")
     return figure
+
+
+def _mode_bands(data: pd.DataFrame, panels: Iterable[Axes]) -> dict[str, Artist]:
+    """Colour the time of each mode in every panel; what the legend has to say of them."""
+    intervals = timeline(data["time_s"].to_numpy(), data["mode"].to_numpy())
+    spans = (intervals["mode"], intervals["start_s"], intervals["end_s"])
+    for panel in panels:
+        for mode, start, end in zip(*spans, strict=True):
+            panel.axvspan(start, end, color=MODE_COLOURS[mode], alpha=BAND, lw=0)
+    return {
+        f"{MODE_LABELS[mode]} pointing": Patch(color=MODE_COLOURS[mode], alpha=BAND, lw=0)
+        for mode in intervals["mode"].unique()
+    }
 
 
 def _curve(data: pd.DataFrame, name: str, axis: str) -> tuple[np.ndarray, np.ndarray]:

@@ -17,7 +17,8 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from smallsat.drawing.figure import Drawing
 from smallsat.dynamics.orbits.circular_orbits import CircularOrbit, orbit_frame, position
 from smallsat.dynamics.units import KM
-from smallsat.studies.mars.figures.scenes import BODY_COLOURS, DAY_COLOUR, NIGHT_COLOUR, view
+from smallsat.studies.mars.figures.colours import BODY_COLOURS, DAY_COLOUR, NIGHT_COLOUR
+from smallsat.studies.mars.figures.scenes import view
 from smallsat.studies.mars.parameters import Parameters
 
 
@@ -101,9 +102,10 @@ def body_frame(parameters: Parameters) -> Drawing:
 
 def orbit_angles(orbit: CircularOrbit) -> Drawing:
     """Inertial and orbit frame with the three Euler angles, for an orbit at time zero."""
-    figure = new_figure(figsize=(5.2, 4.2))
+    figure = new_figure(figsize=(5.2, 3.2))
     figure.set_layout_engine("none")
-    axes = view(figure, (-0.1, -0.12, 1.2, 1.24), 1.0, 1.15, elevation=24, azimuth=28)
+    # From here the orbit lies open, and the inertial axes cross it at once and end clear of it.
+    axes = view(figure, (-0.2, -0.577, 1.4, 2.0), 1.0, 0.85, elevation=24, azimuth=-48)
     frame = np.array(orbit_frame(orbit, 0.0))
     turn = np.linspace(0.0, 2.0 * np.pi, 181)
     equator = np.column_stack([np.cos(turn), np.sin(turn), np.zeros_like(turn)])
@@ -115,7 +117,7 @@ def orbit_angles(orbit: CircularOrbit) -> Drawing:
         axes.add_collection3d(Poly3DCollection([points], facecolors=colour, alpha=0.08))
     axes.plot(*np.array([-node, node]).T, color="0.4", lw=0.8, ls="--")
     for i, direction in enumerate(np.eye(3)):
-        _arrow(axes, np.zeros(3), (1.25, 1.1, 0.85)[i] * direction, f"$n_{i + 1}$", "0.3")
+        _arrow(axes, np.zeros(3), (1.45, 1.1, 0.85)[i] * direction, f"$n_{i + 1}$", "0.3")
     tip = frame[0]
     axes.plot(*np.array([np.zeros(3), tip]).T, color="C0", lw=1.2)
     axes.plot(*tip, "o", color="black", ms=5)
