@@ -35,7 +35,7 @@ def results(tmp_path_factory, short, root):
 
 def test_the_row_names_run_time_and_method(results):
     """The one run that overflows is listed; the others are flown to their ends."""
-    table = read_table(results / "not-converged.csv")
+    table = read_table(results / "simulation-not-converged.csv")
     assert table["case"].tolist() == ["the run 'fixed torque'"]
     assert "no number from" in table["status"][0] and "Runge-Kutta" in table["tried"][0]
     flown = read_table(results / "trajectories.parquet")

@@ -59,13 +59,14 @@ def runge_kutta_step(sigma, rate, inertia, torque, step, switch_norm):
     s4 = mrp_rate(axpy(step, s3, sigma), rate4)
     r4 = angular_acceleration(inertia, rate4, torque)
 
-    new = _weighted(sigma, step, s1, s2, s3, s4)
+    new = weighted(sigma, step, s1, s2, s3, s4)
     if dot(new, new) > switch_norm * switch_norm:
         new = shadow(new)
-    return new, _weighted(rate, step, r1, r2, r3, r4)
+    return new, weighted(rate, step, r1, r2, r3, r4)
 
 
 @compiled
-def _weighted(start, step, k1, k2, k3, k4):
+def weighted(start, step, k1, k2, k3, k4):
+    """Where a step of the classical Runge-Kutta method ends, by the rates of its four stages."""
     outer, inner = axpy(1.0, k4, k1), axpy(1.0, k3, k2)
     return axpy(step / 6.0, axpy(2.0, inner, outer), start)

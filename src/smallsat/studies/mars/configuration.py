@@ -2,15 +2,17 @@
 
 from typing import Annotated
 
-from annotated_types import Ge, Gt, Le, Len
+from annotated_types import Ge, Gt, Interval, Le, Len
 
 from smallsat.quantities import (
     Count,
     Inclination,
+    Integer,
     NonNegative,
     Number,
     Part,
     Positive,
+    Seed,
     Several,
     Vector,
 )
@@ -88,6 +90,56 @@ class Animation(Part):
     day_step_s: Positive
 
 
+class Regulator(Part):
+    """Largest values that the linear-quadratic regulator is asked for, by Bryson's rule."""
+
+    angle_deg: Positive
+    rate_deg_s: Positive
+    torque_N_m: Positive
+
+
+class SlidingMode(Part):
+    """Rate asked for by attitude, acceleration towards that, and where it becomes smaller."""
+
+    slope_deg_s: Positive
+    reaching_deg_s2: Positive
+    layer_deg_s: Positive
+
+
+class Laws(Part):
+    """Gains of the laws that the document does not have; all others are the document's."""
+
+    integral_time_s: Positive
+    integral_limit_N_m_s: NonNegative
+    lqr: Regulator
+    sliding_mode: SlidingMode
+
+
+class Wheels(Part):
+    """Limits of each of three reaction wheels along the body's axes."""
+
+    torque_N_m: Positive
+    momentum_N_m_s: Positive
+
+
+class MonteCarlo(Part):
+    """Random attitudes at the start, and moments of inertia that the laws do not know."""
+
+    runs: Annotated[Integer, Interval(ge=1, le=10_000)]
+    seed: Seed
+    inertia_error_pct: Annotated[Number, Interval(ge=0, le=50)]
+
+
+class Beyond(Part):
+    """Pointing errors below ``settled_deg`` count as settled, and as late after ``late_s``."""
+
+    laws: Laws
+    wheels: Wheels
+    settled_deg: Positive
+    late_s: Duration
+    monte_carlo: MonteCarlo
+
+
 class Configuration(Part):
     orbits: Orbits
     spacecraft: Spacecraft
@@ -101,3 +153,4 @@ class Configuration(Part):
     durations_s: Durations
     answer_times_s: AnswerTimes
     animation: Animation
+    beyond: Beyond

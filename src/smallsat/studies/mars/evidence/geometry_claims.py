@@ -6,8 +6,9 @@ from smallsat.dynamics.orbits.circular_orbits import position, velocity
 from smallsat.evidence.claims import Judgement, judged
 from smallsat.evidence.grounds import Grounds
 from smallsat.studies.mars.configuration import Configuration
-from smallsat.studies.mars.evidence.claims import ROUNDING, directions, frame_rate, vector
+from smallsat.studies.mars.evidence.claims import ROUNDING, frame_rate, vector
 from smallsat.studies.mars.model import frames
+from smallsat.studies.mars.model.light import conditions
 from smallsat.studies.mars.model.modes import GMO
 from smallsat.studies.mars.parameters import Parameters
 
@@ -90,15 +91,8 @@ def transmits_in_line_of_sight(grounds: Grounds[Configuration]) -> Judgement:
     parameters = Parameters.from_section(grounds.section)
     day = grounds.table("day.parquet")
     times, mode = day["time_s"].to_numpy(), day["mode"].to_numpy()
-    lmo, gmo = directions(parameters, times)
-    night = lmo[:, 1] <= 0.0
-    planet = grounds.section.orbits.mars_radius_km * 1000.0
-    from_lmo, from_gmo = parameters.lmo.radius * lmo, parameters.gmo.radius * gmo
-    line = from_gmo - from_lmo
-    # The point of the line that is nearest to the centre, if it lies between the two.
-    along = -np.sum(from_lmo * line, axis=1) / np.sum(line * line, axis=1)
-    nearest = np.linalg.norm(from_lmo + np.clip(along, 0.0, 1.0)[:, None] * line, axis=1)
-    sight = night & (nearest >= planet)
+    found = conditions(parameters, times)
+    sight = (found["night"] & found["sight"]).to_numpy()
     sends = mode == GMO
     blind, unused = float(np.mean(sends & ~sight)), float(np.mean(sight & ~sends))
     evidence = (

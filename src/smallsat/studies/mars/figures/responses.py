@@ -74,7 +74,7 @@ def response_figure(data: pd.DataFrame) -> Figure:
         figure.text(0.5, 0.5, "not converged", ha="center", color="C3", fontsize=12)
     keys = dict(zip(("body", "reference frame"), panels[0, 0].get_lines(), strict=False))
     if data["mode"].nunique() > 1:
-        keys |= _mode_bands(data, panels.flat)
+        keys |= mode_bands(data, panels.flat)
     if len(keys) > 1:
         figure.legend(keys.values(), keys, loc="outside upper center", ncols=len(keys))
     figure.align_ylabels(panels)
@@ -86,7 +86,7 @@ def response_figure(data: pd.DataFrame) -> Figure:
     return figure
 
 
-def _mode_bands(data: pd.DataFrame, panels: Iterable[Axes]) -> dict[str, Artist]:
+def mode_bands(data: pd.DataFrame, panels: Iterable[Axes]) -> dict[str, Artist]:
     """Colour the time of each mode in every panel; what the legend has to say of them."""
     intervals = timeline(data["time_s"].to_numpy(), data["mode"].to_numpy())
     spans = (intervals["mode"], intervals["start_s"], intervals["end_s"])

@@ -33,7 +33,7 @@ def run(step: Step[Configuration]) -> Tables:
         "mode-shares.csv": shares(intervals),
         # From the records with all their digits, for results that are printed as exact fractions.
         "observations.csv": observations_table(observations(section, parameters, runs)),
-        "not-converged.csv": not_converged_table(unsolved),
+        "simulation-not-converged.csv": not_converged_table(unsolved),
     }
 
 
