@@ -5,6 +5,7 @@ import pandas as pd
 import pytest
 
 from smallsat.dynamics.attitude.mrp import mrp_to_dcm
+from smallsat.errors import InputError
 from smallsat.studies.mars.methods import laws
 from smallsat.studies.mars.methods.closed_loop import Actuators, as_table, simulate
 from smallsat.studies.mars.methods.simulation import AUTOMATIC, GMO, NADIR, SUN, tracking_error
@@ -212,3 +213,10 @@ def test_a_loop_that_overflows_is_listed(section):
     assert "the mission by PD with ideal actuators" in [one.case for one in missing]
     lost = summary[(summary["law"] == "PD") & (summary["actuators"] == "ideal")]
     assert lost["late_error_deg"].isna().all()
+
+
+def test_weights_without_a_regulator_are_refused(section, parameters, changed):
+    """One line that names the key."""
+    wild = changed(section, "beyond.laws.lqr.torque_N_m", 1e-30)
+    with pytest.raises(InputError, match=r"mars.beyond.laws.lqr.*has no regulator"):
+        laws.laws(wild, parameters)

@@ -72,6 +72,7 @@ def robustness_figure(runs: pd.DataFrame, settled_deg: float) -> Figure:
             va="bottom",
             fontsize=8,
         )
+        times.set_ylim(top=1.08 * longest)
     for panel in (errors, times):
         panel.set_xlabel("torque used [N m s]")
     keys = [Line2D([], [], color=COLOURS[law], marker="o", lw=0, ms=4, label=law) for law in LAWS]
@@ -107,5 +108,6 @@ def light_figure(intervals: pd.DataFrame, summary: pd.DataFrame) -> Figure:
     axes.invert_yaxis()
     axes.set_xlim(0.0, intervals["end_s"].max() / HOUR)
     axes.set_xlabel("time [h]")
+    axes.set_axisbelow(True)
     axes.grid(axis="y", visible=False)
     return figure

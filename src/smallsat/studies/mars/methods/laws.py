@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 from scipy.spatial.transform import Rotation
 
+from smallsat.errors import InputError
 from smallsat.evidence.not_converged import NotConverged
 from smallsat.statistics.random_streams import stream
 from smallsat.studies.mars.configuration import Configuration
@@ -21,16 +22,28 @@ _ERROR, _MODE = COLUMNS.index("error_rad"), COLUMNS.index("mode")
 
 
 def laws(section: Configuration, parameters: Parameters) -> dict[str, Law]:
-    """The laws by their names, with the document's gains where they have some."""
+    """The laws by their names, with the document's gains where they have some.
+
+    Raises
+    ------
+    InputError
+        If there is no regulator with the weights that are asked for.
+    """
     settings = section.beyond.laws
     asked, sliding = settings.lqr, settings.sliding_mode
-    regulator = lqr_gains(
-        parameters.inertia,
-        section.step_s,
-        float(np.tan(np.radians(asked.angle_deg) / 4.0)),
-        float(np.radians(asked.rate_deg_s)),
-        asked.torque_N_m,
-    )
+    try:
+        regulator = lqr_gains(
+            parameters.inertia,
+            section.step_s,
+            float(np.tan(np.radians(asked.angle_deg) / 4.0)),
+            float(np.radians(asked.rate_deg_s)),
+            asked.torque_N_m,
+        )
+    except np.linalg.LinAlgError:
+        raise InputError(
+            f"config key 'mars.beyond.laws.lqr': {dict(asked)} has no regulator; its values must "
+            f"be of sizes that a body turns with"
+        ) from None
     return {
         name: Law(
             kind=kind,
