@@ -92,7 +92,7 @@ def test_orbits(reference, flown, run, factor, orbit_m, relative_m):
 
 
 def test_drag_is_seen(reference, flown):
-    """Without air the study misses the orbits with drag by more than 1 m, and the distance by 0.1."""
+    """Without air the study misses the orbits with drag by 1 m or more, their distance by 0.1 m."""
     expected, found = states_of(reference, "field and drag"), flown(0.0)
     assert abs(found - expected)[:, :, :3].max() > 1.0
     assert abs(relative(found) - relative(expected))[:, :3].max() > 0.1
