@@ -21,6 +21,10 @@ class Judgement:
     outcome: Outcome
     evidence: str
 
+    def remarked(self, remark: str) -> "Judgement":
+        """The same outcome, with a remark after its evidence."""
+        return Judgement(self.outcome, f"{self.evidence}; {remark}")
+
 
 Predicate = Callable[[Grounds], Judgement]
 

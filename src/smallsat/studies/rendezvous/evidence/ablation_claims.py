@@ -90,9 +90,8 @@ def penalty_is_not_needed(grounds: Grounds) -> Judgement:
     judged = judgement(
         below(found, NOT_NEEDED), "share that the penalty brings to the end, to be below 5 %", found
     )
-    return Judgement(
-        judged.outcome,
-        f"{judged.evidence}; it may help: far ranges take {time[0] / MINUTE:.1f} min with and "
+    return judged.remarked(
+        f"it may help: far ranges take {time[0] / MINUTE:.1f} min with and "
         f"{time[1] / MINUTE:.1f} min without it",
     )
 
@@ -138,7 +137,7 @@ def chaser_passes_without_zone(grounds: Grounds[Configuration]) -> Judgement:
     found = [effect("share", mean(inside[0] - inside[1]), len(inside[0]), bootstrap(grounds))]
     nearest = float(without["closest_m"].min())
     judged = judgement(above(found), "share inside r1 without the zone, less with it", found)
-    return Judgement(judged.outcome, f"{judged.evidence}; the nearest comes to {nearest:.0f} m")
+    return judged.remarked(f"the nearest comes to {nearest:.0f} m")
 
 
 @over_ensemble
@@ -244,9 +243,8 @@ def one_norm_is_less_robust(grounds: Grounds) -> Judgement:
     found = [effect("share of delta-v", mean(more), len(more), bootstrap(grounds))]
     done = [float(table["completed"].mean()) for table in tables]
     judged = judgement(above(found), "relative increase with the LP less that with the QP", found)
-    return Judgement(
-        judged.outcome,
-        f"{judged.evidence}; {100 * done[0]:.0f} % of the disturbed far ranges end with the LP, "
+    return judged.remarked(
+        f"{100 * done[0]:.0f} % of the disturbed far ranges end with the LP, "
         f"{100 * done[2]:.0f} % with the QP. The weights of the LP are not printed",
     )
 
@@ -276,9 +274,8 @@ def sampling_costs_more_than_weights(grounds: Grounds[Configuration]) -> Judgeme
     found = [effect("powers of ten", mean(more), len(more), bootstrap(grounds))]
     times = [10.0 ** float(spread(work).mean()) for work in (sampled, weighted)]
     judged = judgement(above(found), "factor by sampling and horizon less that by weights", found)
-    return Judgement(
-        judged.outcome,
-        f"{judged.evidence}; the work of a far range changes by a factor of {times[0]:.1f} over "
+    return judged.remarked(
+        f"the work of a far range changes by a factor of {times[0]:.1f} over "
         f"sample times and horizons, of {times[1]:.1f} over weights",
     )
 
