@@ -4,7 +4,8 @@ step(
     "slew",
     "flights",
     published=["values.csv"],
-    makes=["flights.parquet", "orbit.csv", "environment.csv"],
+    accepted=["density.csv"],
+    makes=["flights.parquet", "orbit.csv", "environment.csv", "atmospheres.csv"],
 )
 step("slew", "search", makes=["controllers.csv"], published=["values.csv"])
 step(
@@ -79,6 +80,7 @@ JUDGED["slew"] = [
     "flights.parquet",
     "orbit.csv",
     "environment.csv",
+    "atmospheres.csv",
     "controllers.csv",
     "minimum-times.csv",
     "bound.csv",

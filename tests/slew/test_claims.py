@@ -37,13 +37,31 @@ def environment(gradient, offset=0.1):
     )
 
 
+def air(gradient):
+    return pd.DataFrame(
+        {
+            "atmosphere": "MSIS-86",
+            "solar_flux": [70.0, 230.0],
+            "altitude_km": 400.0,
+            "gravity_gradient_N_m": gradient,
+            "drag_N_m": 1.0,
+            "equal_lever_mm": 1.0,
+        }
+    )
+
+
 def test_the_gradient_dominates_from_the_printed_altitude_on(judged):
-    """Below it drag may be the larger one; above it, in the densest air, it may not."""
+    """Below it drag may be the larger one; above it, in the densest air of either kind, not."""
     predicate = claims.gradient_dominates
     longer = environment([0.5, 0.5, 0.5], offset=10.0)
-    for gradient, outcome in (([0.5, 2.0, 2.0], "holds"), ([2.0, 2.0, 0.9], "fails")):
+    for gradient, msis, outcome in (
+        ([0.5, 2.0, 2.0], [3.0, 2.0], "holds"),
+        ([2.0, 2.0, 0.9], [3.0, 2.0], "fails"),
+        ([0.5, 2.0, 2.0], [3.0, 0.9], "fails"),
+    ):
         table = pd.concat([environment(gradient), longer])
-        assert judged(predicate, {"environment.csv": table}) == outcome
+        tables = {"environment.csv": table, "atmospheres.csv": air(msis)}
+        assert judged(predicate, tables) == outcome
     with pytest.raises(LookupError):
         judged(predicate, {"environment.csv": longer})
 

@@ -5,8 +5,9 @@ import pandas as pd
 import pytest
 
 from smallsat.drawing.style import apply_style
-from smallsat.studies.slew.figures import motions
-from smallsat.studies.slew.methods.models import LEFT, MODELS, PEAKS, PRINTED, READINGS, compared
+from smallsat.studies.slew.figures import motions as motions_of
+from smallsat.studies.slew.methods.models import LEFT, PEAKS, PRINTED, READINGS, compared
+from smallsat.studies.slew.methods.plan_names import MODELS
 from smallsat.studies.slew.model.simulation import COLUMNS
 
 
@@ -42,5 +43,27 @@ def test_without_a_plan_there_is_the_printed_row_alone(printed_flight, parameter
     none = printed_flight[:0]
     table = compared(none, parameters, ledger("slew"))
     assert table["model"].tolist() == [PRINTED]
-    _, data = motions.models(none, table, parameters)
+    _, data = motions_of.models(none, table, parameters)
     assert "no plan" in data["note"][0]
+
+
+def test_figures_of_a_turn_show_each_model_by_its_title(printed_flight, parameters):
+    """A row or a sphere each, and the data say which; one motion alone has no such column."""
+    apply_style()
+    one = printed_flight.drop(columns=["flight", "rate_weight"])
+    one = pd.concat([one] * 6, ignore_index=True)
+    plan = one.assign(node=1)
+    draw = {
+        "attitude": lambda motions: motions_of.attitude(motions),
+        "usage": lambda motions: motions_of.usage(motions, parameters),
+        "history": lambda motions: motions_of.history(motions, parameters),
+        "traces": lambda motions: motions_of.traces(motions, {}),
+    }
+    for drawn in draw.values():
+        _, alone = drawn({"": plan})
+        assert "motion" not in alone
+        figure, both = drawn(dict.fromkeys(MODELS, plan))
+        assert both["motion"].unique().tolist() == list(MODELS)
+        assert len(both) == 2 * len(alone)
+        titles = [part.get_suptitle() for part in figure.subfigs]
+        assert (titles or [text.get_text() for text in figure.texts])[: len(MODELS)] == list(MODELS)

@@ -13,8 +13,9 @@ from smallsat.studies.slew.methods import minimum_time
 from smallsat.studies.slew.methods.environment_study import crossover_km
 from smallsat.studies.slew.methods.flown import _position
 from smallsat.studies.slew.methods.guidance_problem import Model, kepler_steps
-from smallsat.studies.slew.methods.plans import HELD_COLUMNS, guidance_model, joined
-from smallsat.studies.slew.methods.turns import turn_plans
+from smallsat.studies.slew.methods.plan_names import EULER, ONE_SEGMENT, WHEELS, plan_names
+from smallsat.studies.slew.methods.plans import HELD_COLUMNS, joined
+from smallsat.studies.slew.methods.turns import euler_plan, turn_plans
 from smallsat.studies.slew.parameters import Parameters
 
 
@@ -30,11 +31,15 @@ def small(section):
     )
 
 
+def timed(section, duration):
+    """The study with a time of its own."""
+    return section.with_(manoeuvre=section.manoeuvre.with_(duration_s=duration))
+
+
 def planned(section, case, duration):
     """The plans of a turn on both meshes, in a time of its own."""
-    timed = section.with_(manoeuvre=section.manoeuvre.with_(duration_s=duration))
-    parameters = Parameters.from_section(timed)
-    return list(turn_plans(guidance_model(parameters), parameters, case, timed))
+    other = timed(section, duration)
+    return list(turn_plans(Parameters.from_section(other), case, other))
 
 
 def test_a_quarter_turn_in_a_fraction_of_its_time_is_a_row(small):
@@ -64,6 +69,18 @@ def test_a_half_turn_with_time_enough_is_of_least_torque(small):
     assert not one.missing and not several.missing
 
 
+def test_a_half_turn_by_eulers_equation_is_planned_as_well(small):
+    """In 100 s the least infeasible, no failure, and named so; in 150 s that of least torque."""
+    for duration, place in ((100.0, 1), (150.0, 0)):
+        other = timed(small, duration)
+        parameters = Parameters.from_section(other)
+        turn = euler_plan(parameters, other)
+        assert turn.row["plan"] == plan_names(parameters, "half", ONE_SEGMENT, EULER)[place]
+        assert turn.infeasible["model"] == turn.model == EULER and not turn.timed
+        assert turn.infeasible["hard_converged"] == (duration == 150.0)
+        assert turn.nodes is not None and not turn.missing
+
+
 def test_no_plan_at_all_leaves_tables_with_their_columns():
     """What draws and judges finds no rows, not no table."""
     assert joined([], HELD_COLUMNS).columns.tolist() == list(HELD_COLUMNS)
@@ -80,11 +97,18 @@ def test_claims_are_undecided_or_right_about_another_time(section, tmp_path, gro
         }
     )
     times.to_csv(tmp_path / "minimum-times.csv", index=False)
-    bound = pd.DataFrame({"model": ["wheels, gravity gradient"], "bound_s": [102.5]})
+    bound = pd.DataFrame(
+        {"model": [WHEELS, EULER], "gravity_gradient": True, "bound_s": [102.5, 90.9]}
+    )
     bound.to_csv(tmp_path / "bound.csv", index=False)
     outcomes = {}
     for duration, solved in ((100.0, False), (104.0, False), (130.0, True)):
-        answer = {"mesh": ["segments"], "hard_status": ["status"], "hard_converged": [solved]}
+        answer = {
+            "model": [WHEELS],
+            "mesh": ["segments"],
+            "hard_status": ["status"],
+            "hard_converged": [solved],
+        }
         pd.DataFrame(answer | {"miss": [0.1]}).to_csv(tmp_path / "infeasible.csv", index=False)
         other = changed(section, "manoeuvre.duration_s", duration)
         given = grounds("slew", other, tmp_path)

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from smallsat.errors import InputError
-from smallsat.studies.slew.methods.bound import bound_time, needed, plan_titles
+from smallsat.studies.slew.methods.bound import bound_time, needed
 from smallsat.studies.slew.methods.minimum_time import DOCUMENT_GUESS, eigenaxis_time, guess
+from smallsat.studies.slew.methods.plan_names import MODELS, plan_titles
 from smallsat.studies.slew.parameters import Parameters, check, half_angle_deg, quarter_angle_deg
 
 
@@ -106,8 +107,17 @@ def test_bound_counts_products_of_inertia(section, parameters, changed):
 
 
 def test_titles_say_what_is_known(section, changed):
-    """Impossible only where the bound proves it."""
-    least = "180 deg, least infeasible, one segment"
-    assert "cannot be reached" in plan_titles(section, "half")[least]
-    longer = plan_titles(changed(section, "manoeuvre.duration_s", 104.0), "half")
-    assert "no plan was found" in longer[least] and "104 s" in longer[least]
+    """Impossible only where the bound of that model proves it, and each model by its name."""
+    later = changed(section, "manoeuvre.duration_s", 104.0)
+    for timed, words in (
+        (section, ("no plan can", "none was found")),
+        (later, ("none was found",) * 2),
+    ):
+        titles = plan_titles(timed, "half")
+        assert len(titles) == 2
+        for model, title, said in zip(MODELS, titles, words, strict=True):
+            feasible, least = title.values()
+            assert feasible == model
+            assert least.startswith(model) and said in least
+    (only,) = plan_titles(later, "quarter")
+    assert next(iter(only.values())) == ""

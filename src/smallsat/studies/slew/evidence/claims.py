@@ -19,12 +19,12 @@ from smallsat.studies.slew.methods.bound import (
     impossible,
     largest_disturbance,
     needed,
-    plan_names,
     reach,
 )
-from smallsat.studies.slew.methods.environment_study import crossover_km, printed_lever_mm
+from smallsat.studies.slew.methods.environment_study import AIR, printed_lever_mm
 from smallsat.studies.slew.methods.flights import replay
 from smallsat.studies.slew.methods.minimum_time import eigenaxis_time
+from smallsat.studies.slew.methods.plan_names import EULER, WHEELS, plan_names
 from smallsat.studies.slew.methods.plans import resampled
 from smallsat.studies.slew.model.simulation import angles_deg
 from smallsat.studies.slew.parameters import Parameters
@@ -75,45 +75,53 @@ def not_in_the_given_time(grounds: Grounds[Configuration]) -> Judgement:
         )
     outer = largest_disturbance(parameters, duration)
     path = np.degrees(reach(parameters.inertia, parameters.torque, duration, disturbance=outer))
-    bound = grounds.table("bound.csv").set_index("model")["bound_s"]
     return Judgement(
         "holds",
         f"from rest to rest the wheels can move the body's x axis along at most {path:.1f} deg of "
         f"the sphere in {duration:g} s, whatever the path, and it has to move by {angle:g} deg: no "
-        f"plan can exist below {bound['wheels, gravity gradient']:.2f} s where the wheels' "
+        f"plan can exist below {bound_of(grounds, WHEELS):.2f} s where the wheels' "
         f"momentum takes part in the gyroscopic torque. The least time found in this model is "
         f"{least:.3f} s, and the solver refuses {duration:g} s on every mesh. "
         f"{_without_wheels(grounds, name)}",
     )
 
 
+def bound_of(grounds: Grounds, model: str) -> float:
+    """Time, s, below which no plan of the larger turn exists by a model with gravity gradient."""
+    rows = grounds.rows("bound.csv", model=model, gravity_gradient=True)
+    return float(rows["bound_s"].iloc[0])
+
+
 def _without_wheels(grounds: Grounds, name: str) -> str:
-    """What is known of a turn by Euler's equation alone, of which the bound says nothing."""
+    """What is known of a turn by Euler's equation alone, of which the bound says less."""
     rows = grounds.table("minimum-times.csv")
     rows = rows[(rows["case"] == f"{name}, no wheel momentum") & rows["converged"]]
-    if rows.empty:
-        return "Of Euler's equation alone the bound says nothing, and no least time was found"
-    return (
-        f"Of Euler's equation alone the bound says nothing; the least time found there is "
-        f"{float(rows['duration_s'].iloc[0]):.3f} s"
+    known = (
+        f"By Euler's equation alone a weaker bound, of the size of J w, excludes plans below "
+        f"{bound_of(grounds, EULER):.2f} s"
     )
+    if rows.empty:
+        return f"{known}, and no least time was found"
+    return f"{known}, and the least time found there is {float(rows['duration_s'].iloc[0]):.3f} s"
 
 
 def valid_trajectory_at_limits(grounds: Grounds[Configuration]) -> Judgement:
     """There must be a valid trajectory for the 180 deg turn in 100 s."""
     judgement = not_in_the_given_time(grounds)
-    row = grounds.table("infeasible.csv").iloc[-1]
     if judgement.outcome == "undecided":
         return judgement
     if judgement.outcome == "fails":
         return Judgement("holds", f"a valid one exists: {judgement.evidence}")
-    miss = np.degrees(np.sqrt(row["miss"]))
+    last = grounds.table("infeasible.csv").groupby("model", sort=False)["miss"].last()
+    misses = ", ".join(
+        f"by {np.degrees(np.sqrt(miss)):.1f} deg ({model})" for model, miss in last.items()
+    )
     duration = grounds.section.manoeuvre.duration_s
     return Judgement(
         "fails",
-        f"no valid one exists: {judgement.evidence}. The least infeasible plan misses its end by "
-        f"{miss:.1f} deg in attitude and rate together (rate times {duration:g} s, root of "
-        f"squares). The printed run too ends beside its target, moving",
+        f"no valid one exists: {judgement.evidence}. The least infeasible plan misses its end "
+        f"{misses} in attitude and rate together (rate times {duration:g} s, root of squares). The "
+        f"printed run too ends beside its target, moving",
     )
 
 
@@ -472,30 +480,33 @@ def torque_all_the_time(grounds: Grounds[Configuration]) -> Judgement:
 
 
 def gradient_dominates(grounds: Grounds[Configuration]) -> Judgement:
-    """From 400 km on the gravity gradient is the larger torque, with the lever of Table 5."""
+    """From 400 km on the gravity gradient is the larger torque, with the lever of Table 5.
+
+    In our exponential air up to its densest, and in MSIS-86 at any solar flux.
+    """
     section = grounds.section
     name = "section-v-c/altitude-above-which-gravity-gradient-dominates/environment-torque-study"
     least = grounds.ledger.value(name).value
     table = grounds.table("environment.csv")
     lever = printed_lever_mm(section)
     rows = table[np.isclose(table["offset_mm"], lever) & (table["altitude_km"] >= least)]
-    if rows.empty:
+    air = grounds.rows("atmospheres.csv", atmosphere=AIR[0])
+    air = air[air["altitude_km"] >= least].sort_values("altitude_km")
+    if rows.empty or air.empty:
         raise LookupError(f"no altitude from {least:g} km on, or not the printed lever")
     ratio = float((rows["gravity_gradient_N_m"] / rows["drag_N_m"]).min())
-    densest = max(section.environment.density_factors)
-    longest = max(section.environment.offsets_mm)
+    in_msis = float((air["gravity_gradient_N_m"] / air["drag_N_m"]).min())
+    lowest = air["altitude_km"].iloc[0]
+    equal = air.loc[air["altitude_km"] == lowest, "equal_lever_mm"]
     return judged(
-        ratio > 1.0,
+        min(ratio, in_msis) > 1.0,
         f"with the lever of Table 5, {lever:g} mm, the gravity gradient is at least {ratio:.0f} "
-        f"times the drag from {least:g} km on, in {densest:g} times the mean density too. With "
-        f"a lever of {longest:g} mm, which is not the document's, the crossover would be at "
-        f"{_km(crossover_km(table, longest))}, and at "
-        f"{_km(crossover_km(table, longest, densest))} in the densest air",
+        f"times the drag from {least:g} km on in {max(section.environment.density_factors):g} "
+        f"times the mean density too, and at least {in_msis:.0f} times in {AIR[0]}, of which the "
+        f"document's atmosphere is a fit, at any solar flux from {air['solar_flux'].min():g} to "
+        f"{air['solar_flux'].max():g}. For drag to be as large at {lowest:g} km the lever would "
+        f"have to be {equal.min():.2g} to {equal.max():.2g} mm",
     )
-
-
-def _km(altitude: float) -> str:
-    return "no altitude studied" if np.isnan(altitude) else f"{altitude:.0f} km"
 
 
 def transition_matrix_keeps_length(grounds: Grounds[Configuration]) -> Judgement:

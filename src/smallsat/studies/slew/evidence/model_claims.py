@@ -7,7 +7,8 @@ from smallsat.evidence.grounds import Grounds
 from smallsat.studies.slew.configuration import Configuration
 from smallsat.studies.slew.evidence.claims import require_turn_about_z
 from smallsat.studies.slew.evidence.torque_claims import MATERIAL, gyroscopic_share
-from smallsat.studies.slew.methods.models import LEFT, MODELS, PEAKS, PRINTED
+from smallsat.studies.slew.methods.models import LEFT, PEAKS, PRINTED
+from smallsat.studies.slew.methods.plan_names import MODELS
 from smallsat.studies.slew.parameters import Parameters
 
 # "As the spacecraft nears the endpoint": this last share of the time.

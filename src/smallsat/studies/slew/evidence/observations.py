@@ -15,8 +15,15 @@ from smallsat.evidence.ledger import Ledger
 from smallsat.evidence.observation import Observation
 from smallsat.results import read_table
 from smallsat.studies.slew.configuration import Configuration
-from smallsat.studies.slew.methods.bound import plan_names
 from smallsat.studies.slew.methods.environment_study import crossover_km, printed_lever_mm
+from smallsat.studies.slew.methods.plan_names import (
+    EULER,
+    ONE_SEGMENT,
+    SEGMENTS,
+    SHOWN,
+    WHEELS,
+    plan_names,
+)
 from smallsat.studies.slew.model.simulation import angles_deg, usage_pct
 from smallsat.studies.slew.parameters import Parameters
 
@@ -29,7 +36,7 @@ TURNS = {"quarter": "90-deg", "half": "180-deg"}
 # What the document calls its turns where it prints their angles.
 PRINTED_CASES = {"quarter": "case-1", "half": "case-2"}
 # Ours, and the document's mesh last: it is the one shown.
-MESHES = ("segments", "one segment")
+MESHES = (SEGMENTS, ONE_SEGMENT)
 
 
 def observations(
@@ -150,8 +157,10 @@ def _torque_optimal(parameters: Parameters, results: Path) -> Iterator[Observati
     replays = read_table(results / "replays.parquet")
     for case, turn in TURNS.items():
         target = target_yaw(parameters, case)
-        for kind in MESHES:
-            plan, flown = chosen_plan(replays, "flight", parameters, case, kind)
+        # The run that is shown comes last.
+        runs = [(ONE_SEGMENT, EULER)] if EULER in SHOWN[case] else []
+        for kind, model in runs + [(kind, WHEELS) for kind in MESHES]:
+            plan, flown = chosen_plan(replays, "flight", parameters, case, kind, model)
             for observed in _flown_plan(flown, parameters, f"{turn}-torque-optimal", target):
                 yield replace(observed, run=plan, note="" if len(flown) else NO_PLAN)
 
@@ -181,10 +190,15 @@ def _flown_plan(
 
 
 def chosen_plan(
-    table: pd.DataFrame, column: str, parameters: Parameters, case: str, kind: str
+    table: pd.DataFrame,
+    column: str,
+    parameters: Parameters,
+    case: str,
+    kind: str,
+    model: str = WHEELS,
 ) -> tuple[str, pd.DataFrame]:
     """The plan of a turn on a mesh that a table has: its name and rows, of least torque first."""
-    for name in plan_names(parameters, case, kind):
+    for name in plan_names(parameters, case, kind, model):
         rows = table[table[column] == name]
         if len(rows):
             break

@@ -3,6 +3,8 @@
 Each function returns the figure and the table of exactly what it draws.
 """
 
+from typing import Any
+
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
@@ -12,6 +14,7 @@ from mpl_toolkits.mplot3d import Axes3D
 
 from smallsat.drawing.figure import Drawing
 from smallsat.dynamics.attitude.quaternions import quaternion_to_dcm
+from smallsat.studies.slew.methods.environment_study import AIR
 from smallsat.studies.slew.methods.models import PEAKS, PRINTED, READINGS, carried_pct
 from smallsat.studies.slew.model.simulation import angles_deg, usage_pct
 from smallsat.studies.slew.parameters import Parameters
@@ -33,76 +36,106 @@ def missing(note: str) -> Drawing:
     return _frozen(figure), pd.DataFrame({"note": [note]})
 
 
-def attitude(flown: pd.DataFrame, title: str = "") -> Drawing:
-    """Roll, pitch and yaw, and the body rates, over time."""
-    rows = flown.iloc[::THINNED]
-    angles = angles_deg(rows)
-    # Jumps by a full turn are none of the motion's.
-    angles = np.degrees(np.unwrap(np.radians(angles), axis=0))
-    data = pd.DataFrame({"time_s": rows["time_s"].to_numpy()})
-    figure, (left, right) = subplots(1, 2, figsize=(6.3, 2.7))
-    for i, (name, style) in enumerate((("roll", "-"), ("pitch", "--"), ("yaw", "-"))):
-        data[f"{name}_deg"] = angles[:, i]
-        left.plot(data["time_s"], angles[:, i], style, label=name)
-    for i, axis in enumerate(AXES):
-        rate = np.degrees(rows[f"omega_{axis}"].to_numpy())
-        data[f"omega_{axis}_deg_s"] = rate
-        right.plot(data["time_s"], rate, ("-", "--", "-")[i], label=rf"$\omega_{axis}$")
-    left.set(xlabel="time [s]", ylabel="angle [deg]")
-    right.set(xlabel="time [s]", ylabel="rate [deg/s]")
-    return _titled(figure, (left, right), title), data
-
-
-def usage(flown: pd.DataFrame, parameters: Parameters, title: str = "") -> Drawing:
-    """Torque and momentum of each wheel in percent of its limit."""
-    rows = flown.iloc[::THINNED]
-    torque, momentum = usage_pct(rows, parameters)
-    data = pd.DataFrame({"time_s": rows["time_s"].to_numpy()})
-    figure, (left, right) = subplots(1, 2, figsize=(6.3, 2.7))
-    for panel, values, name in ((left, torque, "torque"), (right, momentum, "momentum")):
+def attitude(motions: dict[str, pd.DataFrame]) -> Drawing:
+    """Roll, pitch and yaw, and the body rates, over time: a row of panels a motion, by title."""
+    figure, panels = _rows_of(motions, 2, 2.7)
+    drawn = {}
+    for (title, flown), (left, right) in zip(motions.items(), panels, strict=True):
+        rows = flown.iloc[::THINNED]
+        # Jumps by a full turn are none of the motion's.
+        angles = np.degrees(np.unwrap(np.radians(angles_deg(rows)), axis=0))
+        data = pd.DataFrame({"time_s": rows["time_s"].to_numpy()})
+        for i, (name, style) in enumerate((("roll", "-"), ("pitch", "--"), ("yaw", "-"))):
+            data[f"{name}_deg"] = angles[:, i]
+            left.plot(data["time_s"], angles[:, i], style, label=name)
         for i, axis in enumerate(AXES):
-            data[f"{name}_{axis}_pct"] = values[:, i]
-            panel.plot(data["time_s"], values[:, i], ("-", "--", "-")[i], lw=1.1, label=f"${axis}$")
-        panel.set(xlabel="time [s]", ylabel=f"{name} used [%]")
-    left.set_ylim(-108, 108)
-    return _titled(figure, (left, right), title), data
+            rate = np.degrees(rows[f"omega_{axis}"].to_numpy())
+            data[f"omega_{axis}_deg_s"] = rate
+            right.plot(data["time_s"], rate, ("-", "--", "-")[i], label=rf"$\omega_{axis}$")
+        left.set_ylabel("angle [deg]")
+        right.set_ylabel("rate [deg/s]")
+        drawn[title] = data
+    return _with_legends(figure, panels), _together(drawn)
 
 
-def history(plan: pd.DataFrame, parameters: Parameters, title: str = "") -> Drawing:
-    """Quaternion, rate and torque of a plan at its points."""
-    figure, panels = subplots(1, 3, figsize=(6.3, 2.8))
-    data = plan[["time_s", *QUATERNION]].reset_index(drop=True)
-    inner = plan["node"].to_numpy() == 1
-    for name in QUATERNION:
-        panels[0].plot(data["time_s"], data[name], ".-", ms=3, lw=0.8, label=f"${name}$")
-    for axis in AXES:
-        data[f"omega_{axis}_deg_s"] = np.degrees(plan[f"omega_{axis}"].to_numpy())
-        panels[1].plot(
-            data["time_s"], data[f"omega_{axis}_deg_s"], ".-", ms=3, lw=0.8,
-            label=rf"$\omega_{axis}$",
-        )  # fmt: skip
-        torque = np.where(inner, 1e3 * plan[f"u_{axis}"].to_numpy(), np.nan)
-        data[f"u_{axis}_mN_m"] = torque
-        panels[2].plot(data["time_s"], torque, ".-", ms=3, lw=0.8, label=f"$u_{axis}$")
-    labels = ("quaternion [-]", "rate [deg/s]", "torque [mN m]")
-    for panel, label in zip(panels, labels, strict=True):
-        panel.set(xlabel="time [s]", title=label)
-    panels[2].set_ylim(-1.1e3 * parameters.torque, 1.1e3 * parameters.torque)
-    if title:
-        figure.suptitle(title, fontsize=8.5)
-    for panel in panels:
-        # Below the panel: the curves leave no room in it.
-        panel.legend(
-            loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2, fontsize=7, handlelength=1.3
-        )
-    return _frozen(figure), data
+def usage(motions: dict[str, pd.DataFrame], parameters: Parameters) -> Drawing:
+    """Torque and momentum of each wheel in percent of its limit: a row a motion, by title."""
+    figure, panels = _rows_of(motions, 2, 2.7)
+    drawn = {}
+    for (title, flown), (left, right) in zip(motions.items(), panels, strict=True):
+        rows = flown.iloc[::THINNED]
+        torque, momentum = usage_pct(rows, parameters)
+        data = pd.DataFrame({"time_s": rows["time_s"].to_numpy()})
+        for panel, values, name in ((left, torque, "torque"), (right, momentum, "momentum")):
+            for i, axis in enumerate(AXES):
+                data[f"{name}_{axis}_pct"] = values[:, i]
+                style = ("-", "--", "-")[i]
+                panel.plot(data["time_s"], values[:, i], style, lw=1.1, label=f"${axis}$")
+            panel.set_ylabel(f"{name} used [%]")
+        left.set_ylim(-108, 108)
+        drawn[title] = data
+    return _with_legends(figure, panels), _together(drawn)
 
 
-def traces(flown: pd.DataFrame, title: str = "", waypoints: pd.DataFrame | None = None) -> Drawing:
-    """Paths of the tips of the body axes on the unit sphere, in the inertial frame.
+def history(plans: dict[str, pd.DataFrame], parameters: Parameters) -> Drawing:
+    """Quaternion, rate and torque of plans at their points: a row of panels a plan, by title."""
+    figure, panels = _rows_of(plans, 3, 2.8)
+    drawn = {}
+    for (title, plan), row in zip(plans.items(), panels, strict=True):
+        data = plan[["time_s", *QUATERNION]].reset_index(drop=True)
+        inner = plan["node"].to_numpy() == 1
+        for name in QUATERNION:
+            row[0].plot(data["time_s"], data[name], ".-", ms=3, lw=0.8, label=f"${name}$")
+        for axis in AXES:
+            data[f"omega_{axis}_deg_s"] = np.degrees(plan[f"omega_{axis}"].to_numpy())
+            row[1].plot(
+                data["time_s"], data[f"omega_{axis}_deg_s"], ".-", ms=3, lw=0.8,
+                label=rf"$\omega_{axis}$",
+            )  # fmt: skip
+            torque = np.where(inner, 1e3 * plan[f"u_{axis}"].to_numpy(), np.nan)
+            data[f"u_{axis}_mN_m"] = torque
+            row[2].plot(data["time_s"], torque, ".-", ms=3, lw=0.8, label=f"$u_{axis}$")
+        row[2].set_ylim(-1.1e3 * parameters.torque, 1.1e3 * parameters.torque)
+        labels = ("quaternion [-]", "rate [deg/s]", "torque [mN m]")
+        for panel, label in zip(row, labels, strict=True):
+            panel.set_title(label)
+            # Below the panel: the curves leave no room in it.
+            panel.legend(
+                loc="upper center",
+                bbox_to_anchor=(0.5, -0.2),
+                ncols=2,
+                fontsize=7,
+                handlelength=1.3,
+            )
+        drawn[title] = data
+    return _frozen(figure), _together(drawn)
 
-    ``waypoints`` are the points of the plan that is flown, drawn as crosses.
+
+def traces(flown: dict[str, pd.DataFrame], waypoints: dict[str, pd.DataFrame]) -> Drawing:
+    """Paths of the tips of the body axes on the unit sphere, in the inertial frame, by title.
+
+    ``waypoints`` are the points of the plans that are flown, where there are any, drawn as crosses.
     """
+    wide = len(flown)
+    figure = new_figure(figsize=(4.6, 4.2) if wide == 1 else (6.4, 3.7))
+    figure.set_layout_engine("none")
+    drawn = {}
+    for k, (title, motion) in enumerate(flown.items()):
+        place = (k / wide, 0.0, 1.0 / wide, 0.91)
+        axes: Axes3D = figure.add_axes(place, projection="3d")
+        drawn[title] = _axes_traced(axes, motion, waypoints.get(title))
+        title = title or "paths of the body axes"
+        figure.text(
+            (k + 0.5) / wide, 0.995, title.replace("; ", ";\n"), ha="center", va="top", fontsize=7
+        )
+    if waypoints:
+        note = "lines: flown; crosses: points of the plan"
+        figure.text(0.5, 0.02, note, ha="center", fontsize=7.5)
+    return figure, _together(drawn)
+
+
+def _axes_traced(axes: Axes3D, flown: pd.DataFrame, waypoints: pd.DataFrame | None) -> pd.DataFrame:
+    """Draw the paths of one motion on its sphere; what is drawn."""
     rows = flown.iloc[:: 5 * THINNED]
     if rows.index[-1] != flown.index[-1]:
         rows = pd.concat([rows, flown.tail(1)])
@@ -110,9 +143,6 @@ def traces(flown: pd.DataFrame, title: str = "", waypoints: pd.DataFrame | None 
     planned = None
     if waypoints is not None:
         planned = np.array([quaternion_to_dcm(tuple(q)) for q in waypoints[QUATERNION].to_numpy()])
-    figure = new_figure(figsize=(4.6, 4.2))
-    figure.set_layout_engine("none")
-    axes: Axes3D = figure.add_axes((0.0, 0.0, 1.0, 0.91), projection="3d")
     around, up = np.meshgrid(np.linspace(0, 2 * np.pi, 37), np.linspace(0, np.pi, 19))
     axes.plot_wireframe(
         np.cos(around) * np.sin(up), np.sin(around) * np.sin(up), np.cos(up),
@@ -138,23 +168,22 @@ def traces(flown: pd.DataFrame, title: str = "", waypoints: pd.DataFrame | None 
     axes.set_box_aspect((1, 1, 1), zoom=1.25)
     axes.view_init(elev=28, azim=38)
     axes.set_axis_off()
-    figure.text(0.5, 0.995, title or "paths of the body axes", ha="center", va="top", fontsize=7)
     drawn = pd.DataFrame(data)
-    if planned is not None and waypoints is not None:
-        figure.text(
-            0.5, 0.02, "lines: flown; crosses: points of the plan", ha="center", fontsize=7.5
-        )
-        names = [f"{axis}_axis_{name}" for axis in AXES for name in AXES]
-        points = pd.DataFrame(planned.reshape(len(planned), -1), columns=names)
-        points.insert(0, "time_s", waypoints["time_s"].to_numpy())
-        drawn = pd.concat([drawn.assign(drawn="flown"), points.assign(drawn="plan")])
-    return figure, drawn
+    if planned is None or waypoints is None:
+        return drawn
+    names = [f"{axis}_axis_{name}" for axis in AXES for name in AXES]
+    points = pd.DataFrame(planned.reshape(len(planned), -1), columns=names)
+    points.insert(0, "time_s", waypoints["time_s"].to_numpy())
+    return pd.concat([drawn.assign(drawn="flown"), points.assign(drawn="plan")])
 
 
-def environment(table: pd.DataFrame, assumptions: str, lever_mm: float) -> Drawing:
+def environment(
+    table: pd.DataFrame, air: pd.DataFrame, assumptions: str, lever_mm: float
+) -> Drawing:
     """Gravity gradient and drag over altitude; a band over the assumptions of the density.
 
-    ``lever_mm`` is the document's lever of the drag, which the legend says.
+    ``air`` is ``atmospheres.csv``, of which the air that the document's is a fit of is drawn at its
+    least and largest solar flux, and ``lever_mm`` the document's lever, which the legend says.
     """
     figure, axes = subplots(figsize=(6.3, 3.9))
     middle = table[np.isclose(table["density_factor"], 1.0)]
@@ -170,10 +199,22 @@ def environment(table: pd.DataFrame, assumptions: str, lever_mm: float) -> Drawi
         )  # fmt: skip
     one = middle.drop_duplicates("altitude_km")
     axes.plot(one["altitude_km"], one["gravity_gradient_N_m"], color="C0", label="gravity gradient")
+    air = air[air["atmosphere"] == AIR[0]]
+    for flux in sorted({air["solar_flux"].min(), air["solar_flux"].max()} - {np.nan}):
+        line = air[air["solar_flux"] == flux].sort_values("altitude_km")
+        axes.plot(line["altitude_km"], line["drag_N_m"], ":", color="0.2", lw=1.2)
+        place = line.iloc[-1]
+        axes.annotate(
+            f"{flux:g}", (place["altitude_km"], place["drag_N_m"]), fontsize=7,
+            xytext=(3, -2), textcoords="offset points",
+        )  # fmt: skip
+    label = f"{AIR[0]}, lever of Table 5,\nat solar fluxes F10.7"
+    axes.plot([], [], ":", color="0.2", lw=1.2, label=label)
     axes.set(yscale="log", xlabel="altitude [km]", ylabel="mean torque [N m]")
     axes.legend(loc="upper right", ncols=2)
     axes.set_title(assumptions, fontsize=7.5)
-    return figure, table
+    drawn = pd.concat([table.assign(atmosphere="exponential"), air.assign(offset_mm=lever_mm)])
+    return figure, drawn
 
 
 def trade_off(table: pd.DataFrame, printed: float, least: float, bound: float) -> Drawing:
@@ -335,18 +376,43 @@ def tracking(flights: pd.DataFrame) -> Drawing:
     return _frozen(figure), drawn
 
 
-def _titled(figure: Figure, panels, title: str) -> Figure:
-    if title:
-        figure.suptitle(title, fontsize=8.5)
-    for panel in panels:
+def _rows_of(
+    motions: dict[str, pd.DataFrame], columns: int, height: float
+) -> tuple[Figure, list[Any]]:
+    """A figure with a row of panels for each motion, so high, in, below its title."""
+    figure = new_figure(figsize=(6.3, height * len(motions)))
+    parts = figure.subfigures(len(motions), 1, squeeze=False)[:, 0]
+    panels = []
+    for title, part in zip(motions, parts, strict=True):
+        if title:
+            part.suptitle(title, fontsize=8.5)
+        panels.append(part.subplots(1, columns))
+        for panel in panels[-1]:
+            panel.set_xlabel("time [s]")
+    return figure, panels
+
+
+def _with_legends(figure: Figure, panels: list[Any]) -> Figure:
+    """A legend in each panel."""
+    for panel in np.ravel(panels):
         panel.legend(loc="best", fontsize=7, handlelength=1.3, frameon=True, framealpha=0.8)
     return _frozen(figure)
+
+
+def _together(drawn: dict[str, pd.DataFrame]) -> pd.DataFrame:
+    """What several rows show, each with its title; of one row its table as it is."""
+    if len(drawn) == 1:
+        return next(iter(drawn.values()))
+    tables = [table.assign(motion=title) for title, table in drawn.items()]
+    return pd.concat(tables, ignore_index=True)
 
 
 def _frozen(figure: Figure) -> Figure:
     """Laid out once, not again for each file format."""
     layout = figure.get_layout_engine()
     assert layout is not None
-    layout.execute(figure)
+    # Rows of panels need a second pass.
+    for _ in range(1 + bool(figure.subfigs)):
+        layout.execute(figure)
     figure.set_layout_engine("none")
     return figure

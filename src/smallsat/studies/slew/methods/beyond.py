@@ -20,6 +20,7 @@ from smallsat.studies.slew.methods.plans import (
     held_if_converged,
     held_table,
     joined,
+    slew_of,
     summary,
     unsolved,
 )
@@ -48,15 +49,12 @@ def trade_off(section: Configuration, parameters: Parameters) -> Tables:
     missing: list[NotConverged] = []
     for duration in section.beyond.trade_off_s:
         name = f"{parameters.names['half']}, {duration:g} s"
-        result, starts = best_plan(
-            model, parameters, "half", duration, half_mesh(section), section.numerics, SWEEP_STARTS
-        )
+        slew = slew_of(model, parameters, "half", half_mesh(section), duration)
+        result, starts = best_plan(slew, section.numerics, SWEEP_STARTS)
         missing += unsolved(f"trade-off, {name}", result, f"{len(starts)} starts")
-        held, failed = held_if_converged(
-            model, parameters, "half", f"trade-off, {name}", result, section.numerics
-        )
+        held, failed = held_if_converged(slew, f"trade-off, {name}", result, section.numerics)
         missing += failed
-        rows.append(summary(model, parameters, name, result, starts, held))
+        rows.append(summary(model, name, result, starts, held))
         rows[-1]["held_converged"] = bool(held and held.solution.converged)
         if held and held.solution.converged:
             tables.append(held_table(model, held, name))
@@ -111,15 +109,9 @@ def degradation(section: Configuration, parameters: Parameters) -> Tables:
         if not found.converged:
             missing.append(not_found(f"least time with {share:g} % of the torque", found))
         if found.collocated.solution.converged:
-            plan, starts = best_plan(
-                model,
-                parameters,
-                "half",
-                SLACK * (found.duration if found.converged else found.collocated.duration),
-                half_mesh(section),
-                section.numerics,
-                SWEEP_STARTS,
-            )
+            least = found.duration if found.converged else found.collocated.duration
+            slew = slew_of(model, parameters, "half", half_mesh(section), SLACK * least)
+            plan, starts = best_plan(slew, section.numerics, SWEEP_STARTS)
             peaks = (
                 np.abs(plan.plan.states[:, 7:]).max() * model.momentum_unit / parameters.momentum
             )
@@ -158,11 +150,10 @@ def tracking(section: Configuration, parameters: Parameters) -> Tables:
     for turn, (case, duration) in turns.items():
         mesh = Mesh(manoeuvre[case].segments, manoeuvre[case].segment_nodes)
         name = f"plan to follow, {turn} in {duration:g} s"
-        result, starts = best_plan(
-            model, parameters, case, duration, mesh, section.numerics, SWEEP_STARTS
-        )
+        slew = slew_of(model, parameters, case, mesh, duration)
+        result, starts = best_plan(slew, section.numerics, SWEEP_STARTS)
         missing += unsolved(name, result, f"{len(starts)} starts")
-        held, failed = held_if_converged(model, parameters, case, name, result, section.numerics)
+        held, failed = held_if_converged(slew, name, result, section.numerics)
         missing += failed
         plan = None
         if held and held.solution.converged:

@@ -1,13 +1,8 @@
-"""A time below which no plan makes a turn: a bound that needs no optimiser.
-
-It holds where the wheels' momentum takes part in the gyroscopic torque: by Euler's equation alone
-J w is not what the wheels and the environment gave.
-"""
+"""Times below which no plan makes a turn, by either model: bounds that need no optimiser."""
 
 import numpy as np
 
 from smallsat.dynamics.attitude.quaternions import quaternion_to_dcm
-from smallsat.studies.slew.configuration import Configuration
 from smallsat.studies.slew.parameters import Parameters
 
 
@@ -20,10 +15,11 @@ def reach(
 ) -> float:
     """Longest path of the body's x axis on the unit sphere, rad, that the wheels allow in a time.
 
-    From rest, with the wheels at rest, J w = h + H: what the wheels gave and what the environment
-    did. A wheel gives at most torque times time, and must come back, so that |h_i| is at most
-    u min(t, tf - t) plus what remains at the end and |H|. The x axis moves with the speed
-    sqrt(w_y^2 + w_z^2), whatever the order of the turns.
+    Where the wheels' momentum takes part in the gyroscopic torque, from rest with the wheels at
+    rest, J w = h + H: what the wheels gave and what the environment did. A wheel gives at most
+    torque times time, and must come back, so that |h_i| is at most u min(t, tf - t) plus what
+    remains at the end and |H|. The x axis moves with the speed sqrt(w_y^2 + w_z^2), whatever the
+    order of the turns.
 
     Parameters
     ----------
@@ -49,6 +45,30 @@ def reach(
     return float(np.sum(np.maximum(speed[1:], speed[:-1]) * np.diff(time)))
 
 
+def reach_by_euler(
+    inertia: np.ndarray, torque: float, duration: float, disturbance: float = 0.0
+) -> float:
+    """The same by Euler's equation alone, where J w is not what the wheels gave.
+
+    The gyroscopic torque w x J w is normal to J w, so that |J w| changes by no more than the other
+    torques: sqrt(3) u of three wheels, and the environment's. From rest to rest it is at most their
+    sum times min(t, tf - t), and the speed of the x axis at most |J w| times the norm of the rows
+    of the inverse tensor that give w_y and w_z. Weaker than `reach`, since the momentum may point
+    any way.
+
+    Parameters
+    ----------
+    inertia
+        Tensor, shape (3, 3), kg m^2.
+    torque, duration
+        N m and s.
+    disturbance
+        Largest angular momentum, N m s, that the environment can give in the time.
+    """
+    rate = np.sqrt(3.0) * torque + disturbance / duration
+    return float(np.linalg.norm(np.linalg.inv(inertia)[1:], 2) * rate * duration**2 / 4.0)
+
+
 def largest_disturbance(parameters: Parameters, duration: float) -> float:
     """Angular momentum, N m s, that the gravity gradient can give at most in a time, any attitude.
 
@@ -69,56 +89,45 @@ def needed(parameters: Parameters, case: str) -> float:
     return float(np.arctan2(np.linalg.norm(np.cross(before, after)), before @ after))
 
 
-def impossible(parameters: Parameters, case: str, duration: float, gradient: bool = True) -> bool:
-    """Whether no plan makes a turn from rest to rest in a time, s, with or without the gradient."""
+def impossible(
+    parameters: Parameters,
+    case: str,
+    duration: float,
+    gradient: bool = True,
+    *,
+    carried: bool = True,
+) -> bool:
+    """Whether no plan makes a turn from rest to rest in a time, s, by the bound of a model.
+
+    ``gradient`` and ``carried`` say whether the gravity gradient acts, and whether the wheels'
+    momentum takes part in the gyroscopic torque.
+    """
     disturbance = largest_disturbance(parameters, duration) if gradient else 0.0
-    path = reach(parameters.inertia, parameters.torque, duration, disturbance=disturbance)
+    longest = reach if carried else reach_by_euler
+    path = longest(parameters.inertia, parameters.torque, duration, disturbance=disturbance)
     return path < needed(parameters, case)
 
 
-def bound_time(parameters: Parameters, gradient: bool, case: str = "half") -> float:
+def bound_time(
+    parameters: Parameters, gradient: bool, case: str = "half", *, carried: bool = True
+) -> float:
     """Time, s, below which no plan makes a turn from rest to rest; 0 where the bound says nothing.
 
-    Parameters
-    ----------
-    parameters
-        The study's parameters.
-    gradient
-        Whether the gravity gradient acts.
-    case
-        The turn.
+    The arguments are those of `impossible`.
     """
+
+    def refused(duration: float) -> bool:
+        return impossible(parameters, case, duration, gradient, carried=carried)
+
     low, high = 1.0, 1000.0
-    if not impossible(parameters, case, low, gradient):
+    if not refused(low):
         return 0.0
-    while impossible(parameters, case, high, gradient):
+    while refused(high):
         low, high = high, 2.0 * high
     while high - low > 1e-6:
         middle = 0.5 * (low + high)
-        if impossible(parameters, case, middle, gradient):
+        if refused(middle):
             low = middle
         else:
             high = middle
     return low
-
-
-def plan_names(parameters: Parameters, case: str, kind: str) -> tuple[str, str]:
-    """What the plan of a turn is called on a mesh: of least torque, and the least infeasible."""
-    name = parameters.names[case]
-    return f"{name}, {kind}", f"{name}, least infeasible, {kind}"
-
-
-def plan_titles(section: Configuration, case: str) -> dict[str, str]:
-    """Titles of the figures of a turn's plan on the document's mesh, by the plan's name."""
-    parameters = Parameters.from_section(section)
-    why = (
-        "the target cannot be reached"
-        if impossible(parameters, case, parameters.duration)
-        else "no plan was found that reaches the target"
-    )
-    feasible, least = plan_names(parameters, case, "one segment")
-    return {
-        feasible: "",
-        least: "least infeasible plan, with the wheels' momentum in the gyroscopic torque:\n"
-        f"{why} from rest to rest in {parameters.duration:g} s",
-    }

@@ -1,5 +1,6 @@
 """Figure 2: gravity gradient against drag over altitude, with the assumptions as a band."""
 
+from itertools import product
 from math import nan
 
 import numpy as np
@@ -14,6 +15,17 @@ from smallsat.studies.slew.model.simulation import EARTH_RATE
 from smallsat.studies.slew.parameters import Parameters, panels
 
 SAMPLE_S = 60.0
+# Models of the air in the table of densities. The document's own is a fit of the first.
+AIR = ("MSIS-86", "NRLMSISE-00")
+AIR_COLUMNS = (
+    "atmosphere",
+    "solar_flux",
+    "altitude_km",
+    "density_kg_m3",
+    "gravity_gradient_N_m",
+    "drag_N_m",
+    "equal_lever_mm",
+)
 
 
 def torque_table(section: Configuration, parameters: Parameters) -> pd.DataFrame:
@@ -62,6 +74,49 @@ def torque_table(section: Configuration, parameters: Parameters) -> pd.DataFrame
                     }
                 )
     return pd.DataFrame(rows)
+
+
+def with_density(
+    section: Configuration, table: pd.DataFrame, densities: pd.DataFrame
+) -> pd.DataFrame:
+    """Drag with the lever of Table 5 in other air, by altitude, solar flux and model of the air.
+
+    Drag is proportional to the density, so that the torques of `torque_table` need no second
+    computation. It is proportional to the lever too, since the panels are symmetric but for that:
+    the last column is the lever, mm, with which drag and gradient would be equal.
+
+    Parameters
+    ----------
+    section
+        The study's section.
+    table
+        That of `torque_table`.
+    densities
+        Altitude, km, solar flux, and density, kg/m^3, by model; logarithms are linear in between.
+    """
+    lever = printed_lever_mm(section)
+    known = table[np.isclose(table["offset_mm"], lever) & np.isclose(table["density_factor"], 1.0)]
+    models = {name: f"{name.lower().replace('-', '_')}_kg_m3" for name in AIR}
+    rows = []
+    for flux, profile in densities.groupby("solar_flux"):
+        heights = profile["altitude_km"].to_numpy()
+        within = known[known["altitude_km"].between(heights.min(), heights.max())]
+        for (name, column), row in product(models.items(), within.to_dict("records")):
+            altitude = row["altitude_km"]
+            rho = float(np.exp(np.interp(altitude, heights, np.log(profile[column]))))
+            drag = row["drag_N_m"] * rho / float(density(altitude * KM, ATMOSPHERE))
+            rows.append(
+                {
+                    "atmosphere": name,
+                    "solar_flux": flux,
+                    "altitude_km": altitude,
+                    "density_kg_m3": rho,
+                    "gravity_gradient_N_m": row["gravity_gradient_N_m"],
+                    "drag_N_m": drag,
+                    "equal_lever_mm": lever * row["gravity_gradient_N_m"] / drag,
+                }
+            )
+    return pd.DataFrame(rows, columns=list(AIR_COLUMNS))
 
 
 def printed_lever_mm(section: Configuration) -> float:

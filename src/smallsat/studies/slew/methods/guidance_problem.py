@@ -71,6 +71,11 @@ class Model:
         acceleration = ca.mtimes(ca.DM(np.linalg.inv(scaled)), torque)
         return ca.vertcat(vector, -0.5 * ca.dot(w, q[:3]), acceleration, u)
 
+    def in_body(self, q: Any, r: Any) -> Any:
+        """Body components of an inertial vector, symbolic."""
+        v, w = q[:3], q[3]
+        return (w * w - ca.dot(v, v)) * r + 2.0 * ca.dot(v, r) * v - 2.0 * w * ca.cross(v, r)
+
     def _gradient(self, q: Any, t: Any) -> Any:
         """Gravity-gradient torque, N m, on the two-body orbit at a scaled time."""
         assert self.parameters is not None
@@ -87,8 +92,7 @@ class Model:
         r = (ca.cos(anomaly) - e) * ca.DM(frame[0]) + np.sqrt(1.0 - e * e) * ca.sin(
             anomaly
         ) * ca.DM(frame[1])
-        v, w = q[:3], q[3]
-        body = (w * w - ca.dot(v, v)) * r + 2.0 * ca.dot(v, r) * v - 2.0 * w * ca.cross(v, r)
+        body = self.in_body(q, r)
         length = a * (1.0 - e * ca.cos(anomaly))
         factor = 3.0 * mu / length**3 / ca.dot(r, r)
         return factor * ca.cross(body, ca.mtimes(ca.DM(self.inertia), body))
@@ -120,7 +124,6 @@ def problem(
     *,
     least_time: bool = False,
     soft: bool = False,
-    rate_weight: float = 1.0,
 ) -> OptimalControlProblem:
     """Least time, least torque, or (``soft``) the least miss of the end conditions.
 
@@ -137,24 +140,23 @@ def problem(
     soft
         Minimise the squared attitude error, rad^2, plus the squared rate in units of 1/T, and leave
         the end free.
-    rate_weight
-        Factor of the rate in that sum, before it is squared.
 
     Notes
     -----
-    The one parameter is the smoothing s of |u|, which becomes sqrt(u'u + s^2) - s.
+    The one parameter is the smoothing s of |u|, which becomes sqrt(u'u + s^2) - s; of the least
+    miss it is the factor of the rate in its sum, before it is squared.
     """
     limit = model.momentum / model.momentum_unit
 
     def terminal(x: Any, _: Any) -> Any:
         return ca.DM(0, 1) if soft else ca.vertcat(attitude_error(x[:4], target), x[4:7])
 
-    def end_cost(x: Any, final: Any, _: Any) -> Any:
+    def end_cost(x: Any, final: Any, p: Any) -> Any:
         if soft:
             # Four times the squared vector part is the squared angle of a small turn; with the
             # squared cosine it stays a measure of large ones.
             error = attitude_error(x[:4], target)
-            return 4.0 * ca.dot(error, error) + rate_weight**2 * ca.dot(x[4:7], x[4:7])
+            return 4.0 * ca.dot(error, error) + p[0] ** 2 * ca.dot(x[4:7], x[4:7])
         return final if least_time else 0.0
 
     def running_cost(x: Any, u: Any, t: Any, p: Any) -> Any:
@@ -276,7 +278,10 @@ class Guidance:
         self._solver = IpoptSolver(self.method.program, **settings)
 
     def solve(self, guess: Guess | np.ndarray, smoothing: Sequence[float]) -> Result:
-        """Solve with ever less smoothing; each stage begins where the last one ended."""
+        """Solve with ever less smoothing; each stage begins where the last one ended.
+
+        ``smoothing`` holds the values of the problem's one parameter.
+        """
         z = guess if isinstance(guess, np.ndarray) else self.method.guess(*guess)
         seconds, iterations = 0.0, 0
         for value in smoothing:

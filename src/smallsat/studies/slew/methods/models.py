@@ -1,6 +1,5 @@
 """The larger turn in the document's time by two models of the body, to tell which one it flew."""
 
-from itertools import product
 from math import nan
 
 import numpy as np
@@ -11,22 +10,23 @@ from smallsat.evidence.not_converged import NotConverged
 from smallsat.studies.slew.configuration import Configuration
 from smallsat.studies.slew.methods.beyond import half_mesh
 from smallsat.studies.slew.methods.flights import replay
+from smallsat.studies.slew.methods.plan_names import MODELS
 from smallsat.studies.slew.methods.plans import (
     AXES,
     SWEEP_STARTS,
+    asked_once,
     best_plan,
     guidance_model,
     joined,
     least_infeasible,
     node_table,
     resampled,
+    slew_of,
     unsolved,
 )
 from smallsat.studies.slew.model.simulation import COLUMNS, angles_deg, usage_pct
 from smallsat.studies.slew.parameters import Parameters
 
-# Whether the wheels' momentum takes part in the gyroscopic torque.
-MODELS = {"wheels' momentum": True, "Euler's equation alone": False}
 PRINTED = "printed"
 # Weights of the rate in the miss of the end: how the document's solver weighs it is not known, and
 # its run ends with rates that count more in our own measure, the first, than its angles do. Chosen
@@ -47,24 +47,24 @@ def fly_models(
     Of least torque where the solver reaches the end, or else those that miss it least by
     several measures.
     """
-    case, mesh, numerics = "half", half_mesh(section), section.numerics
+    numerics = section.numerics
     flights: list[pd.DataFrame] = []
     missing: list[NotConverged] = []
-    for (name, carried), weight in product(MODELS.items(), RATE_WEIGHTS):
-        model = guidance_model(parameters, carried=carried)
-        result, stated = least_infeasible(
-            model, parameters, case, parameters.duration, mesh, numerics, weight
+    for name, carried in MODELS.items():
+        slew = slew_of(
+            guidance_model(parameters, carried=carried), parameters, "half", half_mesh(section)
         )
-        if stated.converged:
-            result, _ = best_plan(
-                model, parameters, case, parameters.duration, mesh, numerics, SWEEP_STARTS
-            )
-        turn = f"{parameters.names[case]}, {name}, rate weight {weight:g}"
-        missing += unsolved(turn, result, "several starts")
-        if result.solution.converged:
-            torques = resampled(node_table(model, result, parameters, turn), section.resampling_hz)
-            flown = replay(parameters, section, torques, parameters.duration, carried=carried)
-            flights.append(flown.assign(flight=name, rate_weight=weight))
+        if asked_once(slew).converged:
+            results = [best_plan(slew, numerics, SWEEP_STARTS)[0]] * len(RATE_WEIGHTS)
+        else:
+            results = least_infeasible(slew, numerics, RATE_WEIGHTS)
+        for result, weight in zip(results, RATE_WEIGHTS, strict=True):
+            turn = f"{parameters.names['half']}, {name}, rate weight {weight:g}"
+            missing += unsolved(turn, result, "several starts")
+            if result.solution.converged:
+                torques = resampled(node_table(slew.model, result, turn), section.resampling_hz)
+                flown = replay(parameters, section, torques, parameters.duration, carried=carried)
+                flights.append(flown.assign(flight=name, rate_weight=weight))
     return joined(flights, (*COLUMNS, "flight", "rate_weight")), missing
 
 

@@ -1,18 +1,21 @@
 """Minimum-torque plans: the document's two manoeuvres, and what a longer time allows."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import nan
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from smallsat.evidence.not_converged import NotConverged
-from smallsat.optimal_control.gauss_pseudospectral import Mesh
+from smallsat.optimal_control.gauss_pseudospectral import Mesh, OptimalControlProblem
 from smallsat.optimal_control.nonlinear_program import IpoptSolver, Solution
 from smallsat.optimal_control.zero_order_hold import HeldControl
 from smallsat.studies.slew.configuration import Numerics
 from smallsat.studies.slew.methods.flown import miss, propagate_held
 from smallsat.studies.slew.methods.guidance_problem import (
+    Guess,
     Guidance,
     Model,
     Result,
@@ -84,24 +87,52 @@ def guidance_model(
     )
 
 
-def best_plan(
-    model: Model,
-    parameters: Parameters,
-    case: str,
-    duration: float,
-    mesh: Mesh,
-    numerics: Numerics,
-    starts: int,
-) -> tuple[Result, pd.DataFrame]:
-    """Cheapest converged plan of several starts, and one row a start."""
-    target = parameters.targets[case]
-    guidance = Guidance(
-        model, problem(model, parameters.initial, target, (duration, duration)), mesh
-    )
-    results = [
-        guidance.solve(
-            turning_guess(model, parameters.initial, target, duration, tilt), numerics.smoothing
+@dataclass(frozen=True)
+class Slew:
+    """A turn from rest to rest that is to be planned.
+
+    Attributes
+    ----------
+    model
+        What the guidance knows.
+    initial, target
+        Attitudes, quaternions.
+    duration
+        s.
+    mesh
+        Segments and points of the collocation.
+    """
+
+    model: Model
+    initial: np.ndarray
+    target: np.ndarray
+    duration: float
+    mesh: Mesh
+
+    def stated(self, **options: Any) -> OptimalControlProblem:
+        """The problem in the given time; ``options`` are those of `problem`."""
+        return problem(
+            self.model, self.initial, self.target, (self.duration, self.duration), **options
         )
+
+    def guess(self, tilt: tuple[float, float]) -> Guess:
+        """A smooth turn, tilted off the eigenaxis."""
+        return turning_guess(self.model, self.initial, self.target, self.duration, tilt)
+
+
+def slew_of(
+    model: Model, parameters: Parameters, case: str, mesh: Mesh, duration: float | None = None
+) -> Slew:
+    """One of the document's turns, in its time unless another, s, is given."""
+    time = parameters.duration if duration is None else duration
+    return Slew(model, parameters.initial, parameters.targets[case], time, mesh)
+
+
+def best_plan(slew: Slew, numerics: Numerics, starts: int) -> tuple[Result, pd.DataFrame]:
+    """Cheapest converged plan of several starts, and one row a start."""
+    guidance = Guidance(slew.model, slew.stated(), slew.mesh)
+    results = [
+        guidance.solve(slew.guess(tilt), numerics.smoothing)
         for tilt in tilts(starts, numerics.seed)
     ]
     table = pd.DataFrame(
@@ -128,12 +159,12 @@ def unsolved(case: str, result: Result, tried: str) -> list[NotConverged]:
 
 
 def held_if_converged(
-    model: Model, parameters: Parameters, case: str, name: str, result: Result, numerics: Numerics
+    slew: Slew, name: str, result: Result, numerics: Numerics
 ) -> tuple[HeldPlan | None, list[NotConverged]]:
     """A plan with a held control where there is a plan to start from, and what did not converge."""
     if not result.solution.converged:
         return None, []
-    held = hold(model, parameters, case, result, numerics)
+    held = hold(slew, result, numerics)
     if held.solution.converged:
         return held, []
     row = NotConverged(
@@ -145,13 +176,10 @@ def held_if_converged(
     return held, [row]
 
 
-def hold(
-    model: Model, parameters: Parameters, case: str, result: Result, numerics: Numerics
-) -> HeldPlan:
+def hold(slew: Slew, result: Result, numerics: Numerics) -> HeldPlan:
     """Optimise again with a held control, from a collocated plan, and fly it anew."""
-    pieces, plan = numerics.held_intervals, result.plan
-    target = parameters.targets[case]
-    stated = problem(model, parameters.initial, target, (result.duration, result.duration))
+    model, pieces, plan = slew.model, numerics.held_intervals, result.plan
+    stated = slew.stated()
     method = HeldControl(stated, pieces, 1)
     solver = IpoptSolver(
         method.program, tol=1e-9, max_iter=600, mu_strategy="monotone", mu_init=1e-4
@@ -166,7 +194,7 @@ def hold(
     controls = np.clip(method.controls(solution.variables), -1.0, 1.0)
     length = plan.final_time / pieces
     states = propagate_held(model, stated.initial, np.full(pieces, length), controls)
-    attitude, rate = miss(model, states[-1], target)
+    attitude, rate = miss(model, states[-1], slew.target)
     return HeldPlan(
         solution=solution,
         controls=controls,
@@ -178,36 +206,31 @@ def hold(
     )
 
 
+def asked_once(slew: Slew) -> Solution:
+    """What the solver says of a turn as it stands, from one start off the eigenaxis."""
+    return (
+        Guidance(slew.model, slew.stated(), slew.mesh).solve(slew.guess((0.2, 0.0)), [1.0]).solution
+    )
+
+
 def least_infeasible(
-    model: Model,
-    parameters: Parameters,
-    case: str,
-    duration: float,
-    mesh: Mesh,
-    numerics: Numerics,
-    rate_weight: float = 1.0,
-) -> tuple[Result, Solution]:
-    """The plan that misses its end least, and the failed solve of the problem as it stands.
+    slew: Slew, numerics: Numerics, rate_weights: Sequence[float] = (1.0,)
+) -> list[Result]:
+    """The plans that miss their end least, one for each weight of the rate.
 
     The miss is the squared attitude error, rad^2, plus the squared rate times weight and T.
     """
-    target = parameters.targets[case]
-    window = (duration, duration)
-    hard = Guidance(model, problem(model, parameters.initial, target, window), mesh)
-    refused = hard.solve(
-        turning_guess(model, parameters.initial, target, duration, (0.2, 0.0)), [1.0]
-    ).solution
-    missing = problem(model, parameters.initial, target, window, soft=True, rate_weight=rate_weight)
-    soft = Guidance(model, missing, mesh)
-    results = [
-        soft.solve(turning_guess(model, parameters.initial, target, duration, tilt), [1.0])
-        for tilt in tilts(numerics.starts, numerics.seed)[: 3 if mesh.segments == 1 else 5]
-    ]
-    converged = [r for r in results if r.solution.converged]
-    return min(converged or results, key=lambda r: r.solution.objective), refused
+    soft = Guidance(slew.model, slew.stated(soft=True), slew.mesh)
+    started = tilts(numerics.starts, numerics.seed)[: 3 if slew.mesh.segments == 1 else 5]
+    found = []
+    for weight in rate_weights:
+        results = [soft.solve(slew.guess(tilt), [weight]) for tilt in started]
+        converged = [r for r in results if r.solution.converged]
+        found.append(min(converged or results, key=lambda r: r.solution.objective))
+    return found
 
 
-def node_table(model: Model, result: Result, parameters: Parameters, name: str) -> pd.DataFrame:
+def node_table(model: Model, result: Result, name: str) -> pd.DataFrame:
     """A plan at its points: time, state, torque and costate, with both ends; SI units."""
     plan = result.plan
     times = np.r_[0.0, plan.times, plan.final_time] * model.unit
@@ -259,12 +282,7 @@ def joined(tables: list[pd.DataFrame], columns: tuple[str, ...]) -> pd.DataFrame
 
 
 def summary(
-    model: Model,
-    parameters: Parameters,
-    name: str,
-    result: Result,
-    starts: pd.DataFrame,
-    held: HeldPlan | None,
+    model: Model, name: str, result: Result, starts: pd.DataFrame, held: HeldPlan | None
 ) -> dict:
     """One row of what is said of a plan."""
     h = result.hamiltonian
@@ -280,9 +298,7 @@ def summary(
         "hamiltonian_mean": float(np.mean(h)),
         "hamiltonian_spread": spread(h),
     }
-    row |= {
-        f"peak_{a}_pct": float(p / parameters.momentum) for a, p in zip(AXES, peaks, strict=True)
-    }
+    row |= {f"peak_{a}_pct": float(p / model.momentum) for a, p in zip(AXES, peaks, strict=True)}
     if held is not None:
         flown = 100.0 * np.abs(held.states[:, 7:]).max(axis=0) * model.momentum_unit
         row |= {
@@ -294,7 +310,7 @@ def summary(
             "largest_torque_share": float(np.abs(held.controls).max()),
         }
         row |= {
-            f"held_peak_{a}_pct": float(p / parameters.momentum)
+            f"held_peak_{a}_pct": float(p / model.momentum)
             for a, p in zip(AXES, flown, strict=True)
         }
     # Where there is none a table has the columns all the same.

@@ -4,9 +4,10 @@ import numpy as np
 
 from smallsat.dynamics.units import KM
 from smallsat.evidence.ledger import Ledger
+from smallsat.results import read_table
 from smallsat.step import Step, Tables
 from smallsat.studies.slew.configuration import Configuration
-from smallsat.studies.slew.methods.environment_study import torque_table
+from smallsat.studies.slew.methods.environment_study import torque_table, with_density
 from smallsat.studies.slew.methods.flights import eigenaxis_flights
 from smallsat.studies.slew.model.onboard import final_orbit_states
 from smallsat.studies.slew.parameters import Parameters
@@ -18,8 +19,12 @@ def run(step: Step[Configuration]) -> Tables:
     ledger = Ledger.read(step.published / "values.csv")
     position, velocity = (ledger.values(f"table-2/{name}") for name in ("r-0", "v-0"))
     start = KM * np.array([*position, *velocity], dtype=float)
+    environment = torque_table(section, parameters)
     return {
         "flights.parquet": eigenaxis_flights(section, parameters),
         "orbit.csv": final_orbit_states(section, parameters, start),
-        "environment.csv": torque_table(section, parameters),
+        "environment.csv": environment,
+        "atmospheres.csv": with_density(
+            section, environment, read_table(step.accepted / "density.csv")
+        ),
     }

@@ -1,5 +1,7 @@
 """Least times from rest to rest, by two methods, and a bound below them."""
 
+from itertools import product
+
 import pandas as pd
 
 from smallsat.evidence.not_converged import not_converged_table
@@ -7,6 +9,7 @@ from smallsat.step import Step, Tables
 from smallsat.studies.slew.configuration import Configuration
 from smallsat.studies.slew.methods import minimum_time
 from smallsat.studies.slew.methods.bound import bound_time
+from smallsat.studies.slew.methods.plan_names import MODELS
 from smallsat.studies.slew.parameters import Parameters
 
 
@@ -16,10 +19,11 @@ def run(step: Step[Configuration]) -> Tables:
     tables, missing = minimum_time.tables(step.section, parameters)
     bounds = [
         {
-            "model": "wheels, gravity gradient" if gradient else "wheels",
-            "bound_s": bound_time(parameters, gradient),
+            "model": name,
+            "gravity_gradient": gradient,
+            "bound_s": bound_time(parameters, gradient, carried=carried),
         }
-        for gradient in (False, True)
+        for (name, carried), gradient in product(MODELS.items(), (False, True))
     ]
     return {f"{name}.csv": table for name, table in tables.items()} | {
         "bound.csv": pd.DataFrame(bounds),

@@ -9,11 +9,13 @@ from smallsat.evidence.not_converged import not_converged_table
 from smallsat.step import Step, Tables
 from smallsat.studies.slew.configuration import Configuration
 from smallsat.studies.slew.methods.flights import replay
-from smallsat.studies.slew.methods.plans import HELD_COLUMNS, guidance_model, joined, resampled
+from smallsat.studies.slew.methods.plan_names import MODELS
+from smallsat.studies.slew.methods.plans import HELD_COLUMNS, joined, resampled
 from smallsat.studies.slew.methods.turns import (
     INFEASIBLE,
     NODE_COLUMNS,
     START_COLUMNS,
+    euler_plan,
     free_plans,
     turn_plans,
 )
@@ -27,21 +29,26 @@ REPETITIONS = 10
 def run(step: Step[Configuration]) -> Tables:
     """Plan both turns, and simulate what the plans do."""
     section, parameters = step.section, Parameters.from_section(step.section)
-    model = guidance_model(parameters)
     turns = [
-        *turn_plans(model, parameters, "quarter", section),
+        *turn_plans(parameters, "quarter", section),
         *free_plans(parameters, section),
-        *turn_plans(model, parameters, "half", section),
+        *turn_plans(parameters, "half", section),
+        euler_plan(parameters, section),
     ]
     infeasible = [turn.infeasible for turn in turns if turn.infeasible]
     starts = [turn.starts for turn in turns if turn.starts is not None]
     nodes = [turn.nodes for turn in turns if turn.nodes is not None]
     helds = [turn.held for turn in turns if turn.held is not None]
     replays = {
-        str(nodes["plan"].iloc[0]): replay(
-            parameters, section, resampled(nodes, section.resampling_hz), parameters.duration
+        str(turn.nodes["plan"].iloc[0]): replay(
+            parameters,
+            section,
+            resampled(turn.nodes, section.resampling_hz),
+            parameters.duration,
+            carried=MODELS[turn.model],
         )
-        for nodes in nodes
+        for turn in turns
+        if turn.nodes is not None
     }
     flights = [flown.assign(flight=name) for name, flown in replays.items()]
     chosen = {name: flown for name, flown in replays.items() if name.endswith(", segments")}
