@@ -31,6 +31,7 @@ step(
         "held-plans.parquet",
         "replays.parquet",
         "propagator.csv",
+        "attitude-steps.csv",
         "plans-not-converged.csv",
     ],
     clock=["plan-seconds.csv"],
@@ -53,6 +54,7 @@ step(
     published=["values.csv"],
     makes=["models.csv", "models-flights.parquet", "models-not-converged.csv"],
 )
+step("slew", "formulations", makes=["collocation.csv", "gradient-forms.csv", "nodes.csv"])
 step(
     "slew",
     "observations",
@@ -90,6 +92,10 @@ JUDGED["slew"] = [
     "infeasible.csv",
     "replays.parquet",
     "propagator.csv",
+    "attitude-steps.csv",
+    "collocation.csv",
+    "gradient-forms.csv",
+    "nodes.csv",
     "trade-off.csv",
     "trade-off-plans.parquet",
     "models.csv",

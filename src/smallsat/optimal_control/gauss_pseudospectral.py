@@ -21,6 +21,17 @@ def legendre_gauss(nodes: int) -> tuple[np.ndarray, np.ndarray]:
     return points, weights
 
 
+def lagrange_derivatives(support: np.ndarray) -> np.ndarray:
+    """Derivatives at points (n,) of the Lagrange polynomials through them, shape (n, n)."""
+    gaps = support[:, None] - support
+    np.fill_diagonal(gaps, 1.0)
+    barycentric = 1.0 / np.prod(gaps, axis=1)
+    matrix = barycentric[None, :] / barycentric[:, None] / gaps
+    np.fill_diagonal(matrix, 0.0)
+    np.fill_diagonal(matrix, -matrix.sum(axis=1))
+    return matrix
+
+
 def differentiation_matrix(points: np.ndarray) -> np.ndarray:
     """Derivatives at the points of the Lagrange polynomials through -1 and the points.
 
@@ -29,14 +40,7 @@ def differentiation_matrix(points: np.ndarray) -> np.ndarray:
     array, shape (N, N + 1)
         Eq. 15: the first column belongs to the start of the interval.
     """
-    support = np.r_[-1.0, points]
-    gaps = support[:, None] - support
-    np.fill_diagonal(gaps, 1.0)
-    barycentric = 1.0 / np.prod(gaps, axis=1)
-    matrix = barycentric[None, :] / barycentric[:, None] / gaps
-    np.fill_diagonal(matrix, 0.0)
-    np.fill_diagonal(matrix, -matrix.sum(axis=1))
-    return matrix[1:]
+    return lagrange_derivatives(np.r_[-1.0, points])[1:]
 
 
 @dataclass(frozen=True)

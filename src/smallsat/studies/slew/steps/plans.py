@@ -8,6 +8,7 @@ import pandas as pd
 from smallsat.evidence.not_converged import not_converged_table
 from smallsat.step import Step, Tables
 from smallsat.studies.slew.configuration import Configuration
+from smallsat.studies.slew.methods.attitude_steps import compared_steps
 from smallsat.studies.slew.methods.flights import replay
 from smallsat.studies.slew.methods.plan_names import MODELS
 from smallsat.studies.slew.methods.plans import HELD_COLUMNS, joined, resampled
@@ -64,6 +65,7 @@ def run(step: Step[Configuration]) -> Tables:
         "held-plans.parquet": joined(helds, HELD_COLUMNS),
         "replays.parquet": joined(flights, (*COLUMNS, "flight")),
         "propagator.csv": transition_errors(chosen),
+        "attitude-steps.csv": compared_steps(chosen, section.onboard.step_s),
         "plan-seconds.csv": pd.DataFrame(seconds),
         "plans-not-converged.csv": not_converged_table(
             row for turn in turns for row in turn.missing
