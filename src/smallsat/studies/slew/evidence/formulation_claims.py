@@ -78,7 +78,7 @@ def euler_angles_diverge(grounds: Grounds) -> Judgement:
     """From the same starts fewer solves must converge with Euler angles than otherwise."""
     table = grounds.table("gradient-forms.csv")
     forms = {
-        name: (int(rows["converged"].sum()), len(rows), int(rows["iterations"].sum()))
+        str(name): (int(rows["converged"].sum()), len(rows), int(rows["iterations"].sum()))
         for name, rows in table.groupby("form", sort=False)
     }
     texts = "; ".join(
