@@ -24,6 +24,7 @@ def mode_figure(intervals: pd.DataFrame, shares: pd.DataFrame) -> Figure:
     end = intervals["end_s"].max()
     span, whole = ("a Mars day", "day") if end == MARS_DAY else (f"{end / HOUR:.3g} h", "time")
     line.set_title(f"{len(intervals) - 1} mode switches in {span}")
+    line.set_axisbelow(True)
     line.grid(axis="y", visible=False)
 
     left = 0.0
