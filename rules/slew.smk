@@ -5,7 +5,13 @@ step(
     "flights",
     published=["values.csv"],
     accepted=["density.csv"],
-    makes=["flights.parquet", "orbit.csv", "environment.csv", "atmospheres.csv"],
+    makes=[
+        "flights.parquet",
+        "orbit.csv",
+        "environment.csv",
+        "atmospheres.csv",
+        "outer-torques.csv",
+    ],
 )
 step("slew", "search", makes=["controllers.csv"], published=["values.csv"])
 step(
@@ -54,6 +60,7 @@ step(
     published=["values.csv"],
     makes=["models.csv", "models-flights.parquet", "models-not-converged.csv"],
 )
+step("slew", "savings", makes=["savings.csv", "savings-not-converged.csv"])
 step("slew", "formulations", makes=["collocation.csv", "gradient-forms.csv", "nodes.csv"])
 step(
     "slew",
@@ -71,6 +78,7 @@ step(
         "degradation-not-converged.csv",
         "tracking-not-converged.csv",
         "models-not-converged.csv",
+        "savings-not-converged.csv",
     ],
     published=["values.csv"],
     makes=["observations.csv", "not-converged.csv"],

@@ -5,7 +5,8 @@ import pytest
 
 from smallsat.errors import InputError
 from smallsat.studies.slew.methods.bound import bound_time, needed
-from smallsat.studies.slew.methods.minimum_time import DOCUMENT_GUESS, eigenaxis_time, guess
+from smallsat.studies.slew.methods.minimum_time import DOCUMENT_GUESS, guess
+from smallsat.studies.slew.methods.one_axis import eigenaxis_time
 from smallsat.studies.slew.methods.plan_names import MODELS, plan_titles
 from smallsat.studies.slew.parameters import Parameters, check, half_angle_deg, quarter_angle_deg
 

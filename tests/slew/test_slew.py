@@ -6,7 +6,6 @@ import pytest
 from smallsat.errors import InputError
 from smallsat.optimal_control.gauss_pseudospectral import Mesh
 from smallsat.studies.slew.configuration import Controller
-from smallsat.studies.slew.evidence.claims import bang_coast_bang
 from smallsat.studies.slew.methods import minimum_time
 from smallsat.studies.slew.methods.bound import (
     bound_time,
@@ -16,6 +15,7 @@ from smallsat.studies.slew.methods.bound import (
 )
 from smallsat.studies.slew.methods.flights import controller
 from smallsat.studies.slew.methods.guidance_problem import Model
+from smallsat.studies.slew.methods.one_axis import bang_coast_bang
 from smallsat.studies.slew.methods.plans import (
     asked_once,
     best_plan,

@@ -126,8 +126,18 @@ class Tracking(Part):
     torque_margin_pct: Percent
 
 
+class Magnetic(Part):
+    """Field on the ground, and dipoles of the spacecraft: its own, and that of a torquer."""
+
+    field_T: Positive
+    residual_A_m2: Positive
+    torquer_A_m2: Positive
+
+
 class Beyond(Part):
+    magnetic: Magnetic
     trade_off_s: Several[Duration]
+    savings_s: Several[Duration]
     torque_shares_pct: Several[Percent]
     inertia_error_pct: Percent
     tracking: Tracking

@@ -23,7 +23,7 @@ from smallsat.studies.slew.methods.bound import (
 )
 from smallsat.studies.slew.methods.environment_study import AIR, printed_lever_mm
 from smallsat.studies.slew.methods.flights import replay
-from smallsat.studies.slew.methods.minimum_time import eigenaxis_time
+from smallsat.studies.slew.methods.one_axis import bang_coast_bang, body_axis, eigenaxis_time
 from smallsat.studies.slew.methods.plan_names import EULER, WHEELS, plan_names
 from smallsat.studies.slew.methods.plans import resampled
 from smallsat.studies.slew.model.simulation import angles_deg
@@ -193,19 +193,6 @@ def eigenaxis_is_not_fastest(grounds: Grounds[Configuration]) -> Judgement:
     return judged(all(faster), "; ".join(texts))
 
 
-def body_axis(parameters: Parameters, case: str) -> tuple[str, float]:
-    """The body axis that a turn is about and its moment, kg m^2.
-
-    A LookupError where it is none, or no principal axis: a turn about it alone is then no motion by
-    its own wheel.
-    """
-    place = int(np.argmax(np.abs(parameters.axis(case))))
-    others = np.delete(np.r_[parameters.axis(case), parameters.inertia[place]], [place, 3 + place])
-    if np.abs(others).max() > ROUNDING:
-        raise LookupError("the turn is not about a principal axis along a wheel")
-    return "xyz"[place], float(parameters.inertia[place, place])
-
-
 def nutation_saves_torque(grounds: Grounds[Configuration]) -> Judgement:
     """90 deg: it is asked whether motion about x and y lowers the torque used."""
     parameters = Parameters.from_section(grounds.section)
@@ -234,14 +221,6 @@ def nutation_saves_torque(grounds: Grounds[Configuration]) -> Judgement:
         f"{below} the printed {printed} %. The saving over the PD law comes from coasting, not "
         f"from nutation",
     )
-
-
-def bang_coast_bang(
-    angle: float, moment: float, torque: float, duration: float
-) -> tuple[float, float]:
-    """Cost and peak momentum, N m s, of the cheapest turn about one axis, by hand."""
-    burn = 0.5 * (duration - np.sqrt(duration**2 - 4.0 * angle * moment / torque))
-    return 2.0 * torque * burn, torque * burn
 
 
 def peak_of_another_controller(grounds: Grounds[Configuration]) -> Judgement:

@@ -9,13 +9,11 @@ from smallsat.studies.slew.configuration import Configuration
 from smallsat.studies.slew.evidence.claims import (
     EIGENAXIS,
     OPTIMAL,
-    bang_coast_bang,
-    body_axis,
     require_turn_about_z,
 )
 from smallsat.studies.slew.methods.bound import largest_disturbance
 from smallsat.studies.slew.methods.flights import controller
-from smallsat.studies.slew.methods.minimum_time import eigenaxis_time
+from smallsat.studies.slew.methods.one_axis import bang_coast_bang, body_axis, eigenaxis_time
 from smallsat.studies.slew.model.simulation import plant, run
 from smallsat.studies.slew.parameters import Parameters
 

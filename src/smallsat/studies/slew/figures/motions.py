@@ -312,6 +312,24 @@ def models(flights: pd.DataFrame, table: pd.DataFrame, parameters: Parameters) -
     return _frozen(figure), pd.concat(drawn, ignore_index=True)
 
 
+def savings(table: pd.DataFrame) -> Drawing:
+    """Torque saved over the time by motion off the eigenaxis and by the gravity gradient."""
+    figure, panels = subplots(1, 2, figsize=(6.3, 2.9))
+    parts = (
+        ("saved_off_axis_pct", "saved off the eigenaxis [%]"),
+        ("saved_by_gradient_pct", "saved by the gravity gradient [%]"),
+    )
+    for panel, (column, label) in zip(panels, parts, strict=True):
+        for (model, rows), style in zip(
+            table.groupby("model", sort=False), ("o-", "s--"), strict=False
+        ):
+            panel.plot(rows["duration_s"], rows[column], style, ms=4, label=str(model))
+        panel.axhline(0.0, color="0.4", lw=0.7)
+        panel.set(xlabel="time of the manoeuvre [s]", ylabel=label)
+    panels[0].legend()
+    return figure, table
+
+
 def degradation(table: pd.DataFrame) -> Drawing:
     """Least time of the larger turn, and cost in a tenth more, over the wheels' torque.
 

@@ -11,7 +11,8 @@ from smallsat.optimal_control.gauss_pseudospectral import Mesh
 from smallsat.studies.slew.configuration import Configuration
 from smallsat.studies.slew.methods.flights import controller
 from smallsat.studies.slew.methods.guidance_problem import tilts
-from smallsat.studies.slew.methods.minimum_time import eigenaxis_time, fastest, guess, not_found
+from smallsat.studies.slew.methods.minimum_time import fastest, guess, not_found
+from smallsat.studies.slew.methods.one_axis import eigenaxis_time
 from smallsat.studies.slew.methods.plans import (
     HELD_COLUMNS,
     SWEEP_STARTS,

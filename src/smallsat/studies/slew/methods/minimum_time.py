@@ -19,6 +19,7 @@ from smallsat.studies.slew.methods.guidance_problem import (
     tilts,
     turning_guess,
 )
+from smallsat.studies.slew.methods.one_axis import eigenaxis_time
 from smallsat.studies.slew.methods.plans import spread
 from smallsat.studies.slew.parameters import MILLI, Parameters
 
@@ -144,23 +145,6 @@ def fastest(
         attitude_miss=attitude,
         rate_miss=rate,
     )
-
-
-def eigenaxis_time(angle: float, moment: float, torque: float, momentum: float) -> float:
-    """Time, s, of a turn about one axis alone: full torque forth and back, coasting if full.
-
-    Parameters
-    ----------
-    angle
-        rad.
-    moment
-        Moment of inertia about the axis, kg m^2.
-    torque, momentum
-        Limits of the wheel, N m and N m s.
-    """
-    if np.sqrt(angle * moment * torque) <= momentum:
-        return float(2.0 * np.sqrt(angle * moment / torque))
-    return float(angle * moment / momentum + momentum / torque)
 
 
 # Where the search for the least times of the document's two turns begins, s, and what those turns

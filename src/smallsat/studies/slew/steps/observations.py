@@ -9,7 +9,15 @@ from smallsat.studies.slew.evidence.observations import observations, timings
 from smallsat.studies.slew.parameters import Parameters
 
 # Steps that solve, and list what they did not solve in a table of their own.
-SOLVING = ("minimum-times", "plans", "trade-off", "degradation", "tracking", "models")
+SOLVING = (
+    "minimum-times",
+    "plans",
+    "trade-off",
+    "degradation",
+    "tracking",
+    "models",
+    "savings",
+)
 
 
 def run(step: Step[Configuration]) -> Tables:
