@@ -108,6 +108,7 @@ JUDGED["slew"] = [
     "trade-off-plans.parquet",
     "models.csv",
     "models-flights.parquet",
+    "savings.csv",
 ]
 
 SCENES["slew"] = ["replays.parquet"]

@@ -6,6 +6,7 @@ import pytest
 
 from smallsat.studies.slew.evidence import claims, model_claims, torque_claims
 from smallsat.studies.slew.methods.models import LEFT, PEAKS
+from smallsat.studies.slew.methods.plan_names import MODELS
 
 QUARTER, HALF = "90 deg", "180 deg"
 
@@ -195,6 +196,12 @@ def test_the_environment_costs_torque_if_the_law_uses_more_with_it(judged):
     assert judged(predicate, flights(u_z=5e-5)) == "fails"
 
 
+def saved():
+    """By both models in a time, of which either claim speaks beside its own plans."""
+    share = {"duration_s": 126.0, "saved_off_axis_pct": 13.0, "saved_by_gradient_pct": -0.1}
+    return pd.DataFrame([{"model": model} | share for model in MODELS])
+
+
 @pytest.mark.parametrize(("cost", "outcome"), [(5.3e-3, "holds"), (5.4358e-3, "fails")])
 def test_a_saving_by_the_environment_is_a_hundredth(judged, cost, outcome):
     """Of the plan without it."""
@@ -205,7 +212,8 @@ def test_a_saving_by_the_environment_is_a_hundredth(judged, cost, outcome):
             "held_cost_N_m_s": [cost, 5.4370e-3],
         }
     )
-    assert judged(torque_claims.environment_saves_torque, {"plans.csv": plans}) == outcome
+    tables = {"plans.csv": plans, "savings.csv": saved()}
+    assert judged(torque_claims.environment_saves_torque, tables) == outcome
 
 
 @pytest.mark.parametrize(("cost", "outcome"), [(9.6e-3, "holds"), (9.73e-3, "fails")])
@@ -216,6 +224,7 @@ def test_a_path_saves_against_the_turn_about_one_axis(judged, cost, outcome):
     tables = {
         "trade-off.csv": pd.DataFrame(plans | {"converged": True, "held_converged": True}),
         "trade-off-plans.parquet": still.assign(plan=f"{HALF}, 130 s"),
+        "savings.csv": saved(),
     }
     assert judged(torque_claims.path_saves_torque, tables) == outcome
 
