@@ -61,6 +61,7 @@ step(
     makes=["models.csv", "models-flights.parquet", "models-not-converged.csv"],
 )
 step("slew", "savings", makes=["savings.csv", "savings-not-converged.csv"])
+step("slew", "wheel_states", makes=["wheel-states.csv", "wheel-states-not-converged.csv"])
 step("slew", "formulations", makes=["collocation.csv", "gradient-forms.csv", "nodes.csv"])
 step(
     "slew",
@@ -79,6 +80,7 @@ step(
         "tracking-not-converged.csv",
         "models-not-converged.csv",
         "savings-not-converged.csv",
+        "wheel-states-not-converged.csv",
     ],
     published=["values.csv"],
     makes=["observations.csv", "not-converged.csv"],

@@ -25,7 +25,7 @@ def test_with_time_enough_no_path_is_cheaper_than_the_axis(section, parameters):
     manoeuvre = section.manoeuvre
     few = section.with_(
         beyond=section.beyond.with_(savings_s=(LATE,)),
-        manoeuvre=manoeuvre.with_(half=manoeuvre.half.with_(segments=4, segment_nodes=5)),
+        manoeuvre=manoeuvre.with_(half=manoeuvre.half.with_(segments=3, segment_nodes=5)),
     )
     table, missing = savings(few, parameters)
     assert not missing and table["model"].tolist() == list(MODELS)

@@ -138,6 +138,7 @@ class Beyond(Part):
     magnetic: Magnetic
     trade_off_s: Several[Duration]
     savings_s: Several[Duration]
+    stored_momentum_pct: Percent
     torque_shares_pct: Several[Percent]
     inertia_error_pct: Percent
     tracking: Tracking

@@ -43,6 +43,10 @@ class Model:
         Whether the wheels' momentum takes part in the gyroscopic torque.
     parameters
         The orbit for the gravity gradient; without it there is none.
+    stored
+        Momentum that each wheel holds at the start, in shares of its limit.
+    working
+        Share of its torque that each wheel has: nil of one that failed.
     """
 
     inertia: np.ndarray
@@ -51,6 +55,17 @@ class Model:
     unit: float
     carried: bool = True
     parameters: Parameters | None = None
+    stored: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    working: tuple[float, float, float] = (1.0, 1.0, 1.0)
+
+    @property
+    def start(self) -> np.ndarray:
+        """Body rate and momentum given by the wheels at the start, scaled, shape (6,).
+
+        What a wheel holds it has not given: it counts as given the other way.
+        """
+        limit = self.momentum / self.momentum_unit
+        return np.r_[np.zeros(3), -limit * np.array(self.stored)]
 
     @property
     def momentum_unit(self) -> float:
@@ -166,14 +181,14 @@ def problem(
 
     free = np.full(7, np.inf)
     return OptimalControlProblem(
-        initial=np.r_[initial, np.zeros(6)],
+        initial=np.r_[initial, model.start],
         controls=CONTROLS,
         rate=lambda x, u, t, p: model.rate(x, u, t),
         running_cost=running_cost,
         terminal=terminal,
         end_cost=end_cost,
         state_bounds=np.array([np.r_[-free, np.full(3, -limit)], np.r_[free, np.full(3, limit)]]),
-        control_bounds=np.array([np.full(3, -1.0), np.full(3, 1.0)]),
+        control_bounds=np.array([-np.array(model.working), np.array(model.working)]),
         final_time=(final_time[0] / model.unit, final_time[1] / model.unit),
         parameters=1,
     )

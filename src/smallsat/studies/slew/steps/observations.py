@@ -17,6 +17,7 @@ SOLVING = (
     "tracking",
     "models",
     "savings",
+    "wheel-states",
 )
 
 
