@@ -68,6 +68,7 @@ def step(
     shard="",
     takes=None,
     priority=0,
+    aside=False,
 ):
     """A computing step of a study becomes a rule.
 
@@ -91,6 +92,8 @@ def step(
         Published and accepted files of the study that it reads, and files of a person's own.
     priority
         Steps of a higher one start first.
+    aside
+        Whether it is run only when asked for by its name.
     """
     implementation = f"smallsat.studies.{study}.steps.{runs or name}"
     words = [
@@ -99,7 +102,8 @@ def step(
         *[f"--part {part}"] * bool(part),
         *[f"--shard {shard}"] * bool(shard),
     ]
-    MADE[study] += results(study, *makes, *clock)
+    if not aside:
+        MADE[study] += results(study, *makes, *clock)
 
     rule:
         name:

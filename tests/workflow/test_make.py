@@ -1,5 +1,8 @@
 """`make` before there is an environment: which Python, and a checkout that was moved."""
 
+import shutil
+import subprocess
+
 import pytest
 
 
@@ -39,3 +42,16 @@ def test_a_moved_checkout_makes_its_environment_anew(moved):
     assert "-m venv --clear" in moved.run("make -n").stdout
     (moved.folder / ".venv/installed").write_text(str(moved.folder))
     assert "-m venv --clear" not in moved.run("make -n").stdout
+
+
+def test_flight_says_what_is_missing_where_it_may_not_install(root, tmp_path):
+    """Without emulators, and for a user who is not root: one line that names them."""
+    for command in ("bash", "dirname"):
+        (tmp_path / command).symlink_to(shutil.which(command))
+    fake(tmp_path, "id", "echo 1000")
+    done = subprocess.run(
+        [root / "flight/install"], env={"PATH": str(tmp_path)}, capture_output=True, text=True
+    )
+    assert done.returncode == 2
+    (line,) = done.stderr.splitlines()
+    assert "qemu-system-arm" in line and "install (Debian)" in line

@@ -324,6 +324,27 @@ class Studies(Flown):
     bootstrap: Bootstrap
 
 
+class Benchmark(Part):
+    """Horizons of a phase, at its own sample time, and sample times, at its own horizon."""
+
+    horizons: Growing[Horizon]
+    sample_times_s: Growing[Positive]
+
+
+class FlightComputer(Part):
+    """Chapter 6: runs of each case, and how many steps of each are replayed.
+
+    The generated solver takes several times as long to emulate, and may have fewer runs.
+    """
+
+    runs: Annotated[Integer, Interval(ge=1, le=100000)]
+    generated_runs: Annotated[Integer, Interval(ge=1, le=100000)]
+    steps: Annotated[Integer, Interval(ge=1, le=10000)]
+    far: Benchmark
+    mid: Benchmark
+    final: Benchmark
+
+
 class Flight(Part):
     """What every manoeuvre depends on."""
 
@@ -354,3 +375,4 @@ class Configuration(Cases, MonteCarlo):
     solvers: Solvers
     elliptic: Elliptic
     studies: Studies
+    flight_computer: FlightComputer

@@ -1,0 +1,1 @@
+/* Stands for what QDLDL's own build writes; nothing asks for the version. */

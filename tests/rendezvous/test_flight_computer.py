@@ -1,0 +1,146 @@
+"""The flight program: its C against the study's Python, on an emulator, and over a socket.
+
+What needs a compiler or an emulator is skipped where that is not there.
+"""
+
+import sys
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from smallsat.errors import InputError
+from smallsat.optimal_control.riccati_interior_point import SOLVED, solve, workspace
+from smallsat.studies.rendezvous.flight_computer import emulator, link, measurement
+from smallsat.studies.rendezvous.flight_computer.provenance import FOLDER
+from smallsat.studies.rendezvous.flight_computer.recording import (
+    law_header,
+    recordings,
+    samples,
+)
+from smallsat.studies.rendezvous.guidance.controller import ITERATION_LIMIT, TOLERANCE
+from smallsat.studies.rendezvous.guidance.law import settings
+
+# The first control, in bounds: the stage-wise solver's tolerance leaves less open, the generated
+# one's default tolerance more.
+CONTROL_ERROR = {emulator.OWN: 1e-3, emulator.GENERATED: 5e-3}
+
+
+def needs(*commands):
+    lacking = emulator.missing(*commands)
+    return pytest.mark.skipif(bool(lacking), reason=f"not there: {', '.join(lacking)}")
+
+
+@pytest.fixture(scope="module")
+def small(section, changed):
+    """One run of two steps of one case of each phase."""
+    few = section
+    for key, value in (
+        ("runs", 1), ("generated_runs", 1), ("steps", 2),
+        ("far.horizons", (15,)), ("mid.horizons", (5,)), ("final.horizons", (5,)),
+        ("far.sample_times_s", (30.0,)), ("mid.sample_times_s", (20.0,)),
+    ):  # fmt: skip
+        few = changed(few, f"flight_computer.{key}", value)
+    return few
+
+
+@pytest.fixture(scope="module")
+def recorded(small):
+    """The recordings at the small horizons."""
+    horizons = (15, 5, 5)
+    return [r for r in recordings(small) if r.case.horizon == horizons[r.case.phase]]
+
+
+def reference(recording):
+    """The study's own controls for each recorded step."""
+    found = []
+    for one in samples(recording):
+        work = workspace(one.stages, one.program.normals.shape[1], len(one.program.components))
+        solution = solve(one.program, one.stages, one.start, work, TOLERANCE, ITERATION_LIMIT)
+        found.append(solution.controls.copy())
+    return np.array(found)
+
+
+@needs("gcc")
+def test_c_writes_and_solves_the_same_programs(recorded, tmp_path):
+    """Built for this machine: the same first controls as the study's, and as many iterations."""
+    for recording in recorded:
+        (tmp_path / "law.h").write_text(law_header())
+        (tmp_path / "law.bin").write_bytes(settings([recording.law]).tobytes())
+        (tmp_path / "steps.bin").write_bytes(recording.steps.tobytes())
+        sources = [FOLDER / f"{name}.c" for name in ("replay", "guidance", "interior_point")]
+        options = [
+            "-std=gnu11",
+            "-O2",
+            "-ffp-contract=off",
+            "-Wl,--wrap=malloc",
+            "-Wl,--wrap=calloc",
+        ]
+        options += [f"-DSTAGES={recording.case.horizon}", f"-I{tmp_path}", f"-I{FOLDER}"]
+        emulator.run(["gcc", *options, "-o", "replay", *sources, "-lm"], tmp_path)
+        emulator.run([tmp_path / "replay"], tmp_path)
+        rows = np.fromfile(tmp_path / "answers.bin").reshape(len(recording.steps), -1)
+        controls = rows[:, 4:].reshape(len(rows), recording.case.horizon, 3)
+        assert (rows[:, 0] == SOLVED).all()
+        assert np.abs(controls[:, 0] - reference(recording)[:, 0]).max() < 1e-4
+
+
+@needs(*emulator.MEASURING, str(emulator.GENERATOR))
+def test_counts_are_the_same_every_time(small, recorded, monkeypatch):
+    """The docking case by both solvers, counted twice: equal tables, and answers as they should."""
+    monkeypatch.setattr(measurement, "recordings", lambda _: recorded[-1:])
+    first, second = (measurement.measure(small) for _ in range(2))
+    for name, table in first.items():
+        pd.testing.assert_frame_equal(table, second[name])
+    check_answers(first["answers.csv"])
+    check_memory(first["memory.csv"])
+    counted = first["classes.csv"]
+    assert (counted["fp_multiply_add"] > 0).all() and (counted["other"] == 0).all()
+
+
+@needs(*link.FLYING)
+def test_a_rendezvous_over_the_socket(section, tmp_path):
+    """It docks, and as the native guidance does."""
+    row = link.fly(section, tmp_path).iloc[0]
+    assert row["steps"] == row["native_steps"] and row["position_m"] <= row["tolerance_m"]
+
+
+def test_a_lost_client_ends_the_simulation_with_a_line(law, chaser, tmp_path):
+    """A client that answers one report and goes: the server says after how many steps."""
+    program = (
+        "import socket, sys; s = socket.create_connection(('127.0.0.1', int(sys.argv[1])));"
+        "s.recv(56, socket.MSG_WAITALL); s.sendall(bytes(40)); s.recv(56, socket.MSG_WAITALL)"
+    )
+    with (
+        pytest.raises(InputError, match="connection to the flight program lost after 1 steps"),
+        link.client([sys.executable, "-c", program], tmp_path) as flying,
+    ):
+        link.serve(flying.connection, law, chaser, None)
+
+
+@needs("gcc")
+def test_a_lost_simulation_ends_the_client_with_a_line(law, tmp_path, monkeypatch):
+    """Built for this machine: its word is on the standard error stream, and its status is 1."""
+    monkeypatch.setattr(link, "COMPILER", "gcc")
+    monkeypatch.setattr(link, "FLAGS", ["-std=gnu11", "-O2"])
+    _, *_, program = link.build_client(law, tmp_path)
+    with link.client([program], tmp_path / "law.bin") as (connection, process):
+        connection.sendall(np.zeros(7).tobytes())
+        connection.recv(40)
+        connection.close()
+        assert process.wait(timeout=10) == 1
+        assert process.stderr.read() == "flight program: connection lost after 1 steps\n"
+
+
+def check_answers(table):
+    """Every program that has a solution as stated is solved, and as the study solves it."""
+    assert (table["solved_of_feasible"] == table["feasible"]).all()
+    for solver, error in CONTROL_ERROR.items():
+        assert (table.loc[table["solver"] == solver, "control_error_most"] < error).all()
+    assert (table["cost_error_most"] < 1e-5).all()
+
+
+def check_memory(table):
+    """No memory after the start; the stage-wise solver has no heap at all."""
+    assert (table["heap_after_start_bytes"] == 0).all()
+    assert (table.loc[table["solver"] == emulator.OWN, "heap_bytes"] == 0).all()
