@@ -9,7 +9,7 @@ export PIP_USER := 0
 PIP := $(VENV)/bin/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := all
-.PHONY: all test explain what-ifs lint animations flight benchmark benchmark-baseline lock clean
+.PHONY: all test test-site explain what-ifs lint animations flight benchmark benchmark-baseline lock clean
 
 all: $(VENV)/installed
 	@snakemake all
@@ -34,6 +34,13 @@ $(VENV)/installed: requirements.lock pyproject.toml
 test: $(VENV)/installed
 	@SMALLSAT_OPENED=$(CURDIR)/runs/tests/opened snakemake verdicts --configfile config/tests.yaml
 	@python -m pytest -n 2 --dist loadfile --cov --cov-report=term --cov-report=html
+
+# The web site of the tests' run in Debian's chromium, driven by what requirements.browser.lock adds.
+test-site: $(VENV)/installed
+	@command -v chromium >/dev/null || { echo "make: chromium not found; install it (Debian: apt-get install chromium)" >&2; exit 2; }
+	$(PIP) --require-hashes -r requirements.browser.lock
+	@snakemake verdicts --configfile config/tests.yaml
+	@python -m pytest tests/site
 
 # All that is known of a printed value, erratum, claim, table or figure; RUN=runs/<name> for a what-if.
 explain: $(VENV)/installed
@@ -71,6 +78,7 @@ benchmark-baseline: $(VENV)/installed
 # Needs uv (pip install uv); only for changing dependencies.
 lock:
 	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.in -o requirements.lock
+	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.browser.in -c requirements.lock -o requirements.browser.lock
 
 clean:
 	rm -rf data/results figures report/build runs logs .snakemake .cache

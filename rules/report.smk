@@ -82,9 +82,9 @@ for report, shown in REPORTS.items():
                 for study in shown
                 for figure in report_figures(study)
             ],
+        # The whole as a page is the site; one study, which a what-if asks for, is a single page.
         output:
-            pdf=f"report/build/{report}.pdf",
-            html=f"report/build/{report}.html",
+            [f"report/build/{report}.{suffix}" for suffix in ["pdf"] + ["html"] * bool(prefix)],
         log:
             f"logs/report/{report}.log",
         benchmark:
@@ -92,10 +92,10 @@ for report, shown in REPORTS.items():
         params:
             project=lambda w, input: Path(input.template).parents[1],
         message:
-            f"Typeset report/build/{report}.pdf and {report}.html"
+            f"Typeset the report: {', '.join(shown)}"
         shell:
             "python -m smallsat typeset {input.content} --project {params.project}"
-            " --output {output.pdf} {output.html} > {log} 2>&1"
+            " --output {output} > {log} 2>&1"
 
 
 # The pages link figures, notebooks and the PDF, which are there when the report is.

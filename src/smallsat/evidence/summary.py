@@ -70,7 +70,7 @@ def summary_text(
             f"{len(not_converged)} cases did not converge; they are left out of the figures."
         )
     if report.exists():
-        lines.append(f"report: {report} and {report.with_suffix('.html')}")
+        lines.append(f"report: {report} and {report.parent / 'site/index.html'}")
     return "\n".join(lines)
 
 
