@@ -1,5 +1,6 @@
 """The slews to turn and play: where the body axes point."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -32,7 +33,7 @@ def scenes(section: Configuration, results: Path) -> list[Scene]:
         turn = "half" if str(name).startswith("180") else "quarter"
         found.append(
             Scene(
-                str(name).replace(" ", "-").replace(",", ""),
+                re.sub(r"[^a-z0-9]+", "-", str(name).lower()),
                 f"The body axes in the turn: {name}",
                 "Paths of the tips of the three body axes on the unit sphere, inertial frame.",
                 f"figures/slew/{FALLBACKS[turn]}",
