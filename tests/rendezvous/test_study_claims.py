@@ -235,6 +235,18 @@ def test_failures_at_rest_on_the_sphere_are_told_from_others(judge, section, tmp
     assert judge(section, tmp_path, names)["failures-stall"] == "fails"
 
 
+def test_failures_elsewhere_are_no_witness(judge, section, tmp_path):
+    """At the shortest horizon alone nothing can be told; with one as printed the claim fails."""
+    table = synthetic.sweep("rendezvous", *RENDEZVOUS, 60, *AS_SAID["rendezvous"])
+    table["completed"] = ~((table["case"] == "N 15, Ts 60 s") & (table["sample"] < 30))
+    write(tmp_path, rendezvous_sweep=table)
+    names = ["failures-stall", "rendezvous-failures"]
+    assert judge(section, tmp_path, names) == dict.fromkeys(names, "undecided")
+    table.loc[(table["case"] == "N 45, Ts 60 s") & (table["sample"] == 0), "completed"] = False
+    write(tmp_path, rendezvous_sweep=table)
+    assert judge(section, tmp_path, names) == dict.fromkeys(names, "fails")
+
+
 def test_predictive_count_covers_another_sample():
     """The 95 % interval holds the failures of a second set of 500 about as often as it says."""
     random = np.random.default_rng(5)

@@ -219,14 +219,34 @@ def _widenings(sweep: Sweep, quantity: str, first: float, last: float) -> list[E
     return [sweep.widening(quantity, (n, first), (n, last), count) for n in sweep.horizons]
 
 
+NO_WITNESS = "no manoeuvre fails in the cases whose failures are printed, so that ours are others"
+
+
+def _failing_cases(sweep: Sweep) -> tuple[tuple[float, ...], tuple[int, ...]]:
+    """Sample times and horizons of the failures that Section 4.2 prints."""
+    return sweep.sample_times[-2:], sweep.horizons[1:]
+
+
+def _fails_as_printed(sweep: Sweep) -> bool:
+    """Whether any manoeuvre fails in the cases of which the document says so."""
+    slow, long = _failing_cases(sweep)
+    return any((~sweep.rows(n, t)["completed"]).any() for n in long for t in slow)
+
+
 @over_ensemble
 def long_sampling_and_horizon_fail(grounds: Grounds) -> Judgement:
-    """Section 4.2: failures, slowest two sample times and longer horizons less the other cases."""
+    """Section 4.2: failures, slowest two sample times and longer horizons less the other cases.
+
+    A set with which none of the printed failures' cases fails has failures of another kind, and is
+    no witness.
+    """
     sweep = Sweep(grounds, "rendezvous")
-    slow, long = sweep.sample_times[-2:], sweep.horizons[1:]
+    if not _fails_as_printed(sweep):
+        return Judgement("undecided", NO_WITNESS)
     failed = {
         (n, t): ~sweep.rows(n, t)["completed"] for n in sweep.horizons for t in sweep.sample_times
     }
+    slow, long = _failing_cases(sweep)
     there = pd.concat([failed[n, t] for n in long for t in slow], axis=1).mean(axis=1)
     others = pd.concat(
         [one for (n, t), one in failed.items() if not (n in long and t in slow)], axis=1
@@ -248,11 +268,14 @@ def limit_is_ample(grounds: Grounds[Configuration]) -> Judgement:
 
 @over_ensemble
 def failures_stall_on_boundary(grounds: Grounds[Configuration]) -> Judgement:
-    """Section 4.2: share of the failures that end at rest on the keep-out sphere."""
+    """Section 4.2: share of the failures that end at rest on the keep-out sphere.
+
+    A set with which none of the printed failures' cases fails is no witness.
+    """
     sweep = Sweep(grounds, "rendezvous")
+    if not _fails_as_printed(sweep):
+        return Judgement("undecided", NO_WITNESS)
     failed = sweep.table[~sweep.table["completed"]]
-    if failed.empty:
-        return Judgement("undecided", "no manoeuvre of the sweep fails")
     radius = grounds.section.inferred.keep_out_m
     distance, speed = (
         np.linalg.norm(failed[[f"rendezvous_end_{name}" for name in names]].to_numpy(), axis=1)
