@@ -55,6 +55,39 @@ def problem(given: dict) -> cp.Problem:
     return cp.Problem(cp.Minimize(cost), constraints)
 
 
+def mend(sources: Path) -> None:
+    """Put right two things of the QOCO that CVXPYgen brings, without which later solves go wrong.
+
+    Entry i of a matrix is entry ``GtoGt[i]`` of its transpose, as the setup has it; the update reads
+    that map the other way round, and the dual residual is then that of another program. And a solve
+    begins with the scaling of the one before in its linear system, where that of the identity is
+    meant: after a program without a solution nothing is solved any more. All cones here are linear.
+    """
+    for name in "AG":
+        replace(
+            sources / "qoco_api.c",
+            f"{name}tx[i] = {name}xnew[data->{name}to{name}t[i]];",
+            f"{name}tx[data->{name}to{name}t[i]] = {name}xnew[i];",
+        )
+    factor = "  // Factor KKT matrix.\n  solver->linsys->linsys_factor("
+    identity = """  for (QOCOInt i = 0; i < data->m; ++i)
+    get_data_vectorf(work->WtW)[i] = 1.0;
+  solver->linsys->linsys_update_nt(solver->linsys_data, work->WtW,
+                                   solver->settings->kkt_static_reg, data->m);
+"""
+    replace(sources / "kkt.c", factor, identity + factor, only="initialize_ipm")
+
+
+def replace(source: Path, old: str, new: str, only: str = "") -> None:
+    """Replace a text in a file, after the definition of a function if one is named."""
+    text = source.read_text()
+    start = text.index(f"\nvoid {only}(") if only else 0
+    before, after = text[:start], text[start:]
+    if old not in after:
+        sys.exit(f"{source}: no '{old}'; see whether this QOCO still needs mending")
+    source.write_text(before + after.replace(old, new, 1))
+
+
 if __name__ == "__main__":
     cpg.generate_code(
         problem(json.loads(Path(sys.argv[1]).read_text())),
@@ -62,3 +95,4 @@ if __name__ == "__main__":
         solver="QOCO",
         wrapper=False,
     )
+    mend(Path(sys.argv[2]) / "c/solver_code/src")
