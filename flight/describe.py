@@ -58,10 +58,11 @@ def problem(given: dict) -> cp.Problem:
 def mend(sources: Path) -> None:
     """Put right two things of the QOCO that CVXPYgen brings, without which later solves go wrong.
 
-    Entry i of a matrix is entry ``GtoGt[i]`` of its transpose, as the setup has it; the update reads
-    that map the other way round, and the dual residual is then that of another program. And a solve
-    begins with the scaling of the one before in its linear system, where that of the identity is
-    meant: after a program without a solution nothing is solved any more. All cones here are linear.
+    Entry i of a matrix is entry ``GtoGt[i]`` of its transpose, as the setup has it; the update
+    reads that map the other way round, and the dual residual is then that of another program. And
+    a solve begins with the scaling of the one before in its linear system, where that of the
+    identity is meant: after a program without a solution nothing is solved any more. All cones
+    here are linear.
     """
     for name in "AG":
         replace(

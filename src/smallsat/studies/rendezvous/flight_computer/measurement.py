@@ -1,7 +1,7 @@
 """Chapter 6 measured: every case replayed with both solvers on both processors.
 
-The counts are of instructions, which are the same every time. ``answers.csv`` says how far the
-answers can be trusted: the generated solver calls some solved that are not.
+The counts are of instructions, which are the same every time. What they are in cycles is bounded in
+`smallsat.studies.rendezvous.flight_computer.cycles`.
 """
 
 import sys
