@@ -4,6 +4,8 @@
 #include "program.h"
 
 #define MOST_ITERATIONS 100
+/* As fine as it reaches in all programs; its default, 1e-7, leaves flat optima open. */
+#define TOLERANCE 1e-9
 
 typedef void (*update)(cpg_int index, cpg_float value);
 static const update NORMALS[] = {
@@ -49,5 +51,7 @@ void prepare(const struct program *program, const double start[STATES])
 {
     struct solution unused;
     cpg_set_solver_max_iters(MOST_ITERATIONS);
+    cpg_set_solver_abstol(TOLERANCE);
+    cpg_set_solver_reltol(TOLERANCE);
     solve(program, start, &unused);
 }
