@@ -3,6 +3,7 @@
 import json
 import shutil
 
+import pandas as pd
 import pytest
 
 from smallsat.catalogue import read_catalogue
@@ -30,7 +31,8 @@ def undrawn(root):
         for extra in (read_yaml(path) or []) if path.exists() else []:
             yield from ((f"{stem}.svg", PICTURE) for stem in extra.get("figures") or [])
             if extra.get("table"):
-                yield extra["table"], ",".join(extra.get("columns") or ["empty"]) + "\n"
+                header = pd.DataFrame(columns=list(extra.get("columns") or ["empty"]))
+                yield extra["table"], header.to_csv(index=False)
 
 
 @pytest.fixture(scope="session")

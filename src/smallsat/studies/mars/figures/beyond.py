@@ -106,7 +106,9 @@ def light_figure(intervals: pd.DataFrame, summary: pd.DataFrame) -> Figure:
         )
     axes.set_yticks(range(len(summary)), summary["condition"])
     axes.invert_yaxis()
-    axes.set_xlim(0.0, intervals["end_s"].max() / HOUR)
+    # In a short run no condition may ever hold.
+    if len(intervals):
+        axes.set_xlim(0.0, intervals["end_s"].max() / HOUR)
     axes.set_xlabel("time [h]")
     axes.set_axisbelow(True)
     axes.grid(axis="y", visible=False)
