@@ -24,9 +24,11 @@ from smallsat.studies.rendezvous.flight_computer.recording import (
 from smallsat.studies.rendezvous.guidance.controller import ITERATION_LIMIT, TOLERANCE
 from smallsat.studies.rendezvous.guidance.law import PHASES, settings
 
-# The first control, in bounds: the stage-wise solver's tolerance leaves less open, the generated
-# one's default tolerance more.
-CONTROL_ERROR = {emulator.OWN: 1e-3, emulator.GENERATED: 5e-3}
+# What a solver leaves on the table, of what there is to save; and its first control, in bounds, in
+# half of the programs. In single ones the optimum is flat: one leaves 3e-3 of a bound open, and
+# costs 4e-11 more, so that the largest error of a control says nothing.
+COST_ERROR = {emulator.OWN: 1e-9, emulator.GENERATED: 1e-6}
+MEDIAN_CONTROL_ERROR = {emulator.OWN: 1e-9, emulator.GENERATED: 1e-5}
 
 
 def needs(*commands):
@@ -158,9 +160,9 @@ def tracked(root):
 def check_answers(table):
     """Every program that has a solution as stated is solved, and as the study solves it."""
     assert (table["solved_of_feasible"] == table["feasible"]).all()
-    for solver, error in CONTROL_ERROR.items():
-        assert (table.loc[table["solver"] == solver, "control_error_most"] < error).all()
-    assert (table["cost_error_most"] < 1e-5).all()
+    for solver, rows in table.groupby("solver"):
+        assert (rows["cost_error_most"] < COST_ERROR[solver]).all()
+        assert (rows["control_error_median"] < MEDIAN_CONTROL_ERROR[solver]).all()
 
 
 def check_memory(table):
