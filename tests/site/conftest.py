@@ -1,6 +1,7 @@
 """The web site of the tests' run, with empty pictures and tables where notebooks make them."""
 
 import json
+import os
 import shutil
 
 import pandas as pd
@@ -38,7 +39,8 @@ def undrawn(root):
 @pytest.fixture(scope="session")
 def site(root, tested_run):
     """Folder of the site."""
-    run = root / "runs/site-of-tests"
+    # Tests on several cores build one each.
+    run = root / f"runs/site-of-tests-{os.environ.get('PYTEST_XDIST_WORKER', 'alone')}"
     shutil.rmtree(run, ignore_errors=True)
     shutil.copytree(tested_run / "data", run / "data")
     for name, text in undrawn(root):
