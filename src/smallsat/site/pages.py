@@ -59,7 +59,7 @@ def write_site(content: Path, project: Path, output: Path) -> None:
     pages = Environment(
         loader=FileSystemLoader(templates), autoescape=True, undefined=StrictUndefined
     )
-    pages.globals |= {"studies": said["documents"], "up": UP, "what_if": said["run"]["what_if"]}
+    pages.globals |= {"studies": said["documents"], "up": UP}
     known = subjects(project / "data/published")
 
     def write(name: str, template: str, **given: Any) -> None:
