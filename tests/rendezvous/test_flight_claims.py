@@ -11,6 +11,7 @@ from smallsat.results import write_table
 from smallsat.strict_yaml import read_yaml
 from smallsat.studies.rendezvous.evidence import flight_errata
 from smallsat.studies.rendezvous.evidence.flight_observations import flight_observations
+from smallsat.studies.rendezvous.figures import flight as figures
 
 SOLVERS, PROCESSORS = ("stage-wise", "generated"), ("Cortex-A8", "Cortex-A9")
 DEFAULTS = {"far": (30, 30.0), "mid": (15, 20.0), "final": (12, 5.0)}
@@ -87,6 +88,43 @@ def test_claims_fail_where_counts_are_otherwise(judge):
 def test_nearly_double_can_hold(judge):
     means = AS_PRINTED | {"mid": AS_PRINTED["mid"] | {30: 1.9 * 181.55}}
     assert judge(means, SPREADS)["flight-double"] == "holds"
+
+
+def otherwise_configured(section):
+    """Other horizons, sample times and sweeps than those that were counted."""
+    far, mid = section.phases.far, section.phases.mid
+    phases = section.phases.with_(
+        far=far.with_(horizon=20, sample_time_s=45.0), mid=mid.with_(horizon=8)
+    )
+    computer = section.flight_computer
+    swept = computer.with_(far=computer.far.with_(horizons=(10, 20), sample_times_s=(5.0,)))
+    return section.with_(phases=phases, flight_computer=swept)
+
+
+def test_another_configuration_changes_nothing_that_was_counted(root, section, tmp_path, grounds):
+    """Claims, observations and figures of the chapter follow the tables, not the what-if."""
+    write(tmp_path, AS_PRINTED, SPREADS)
+    entries = read_yaml(root / "data/published/rendezvous/claims.yaml")
+    entries = [entry for entry in entries if entry["id"].startswith("flight-")]
+    pairs = []
+    for own in (section, otherwise_configured(section)):
+        here = grounds("rendezvous", own, tmp_path)
+        runs = here.table("flight/runs.csv")
+        drawn = [
+            figures.counts(runs, phase, varied, 25.0, here.ledger)[1]
+            for phase, varied in (
+                ("far", "horizon"),
+                ("far", "sample_time_s"),
+                ("final", "horizon"),
+            )
+        ]
+        claims = judge_claims(entries, here, "claims.yaml")["evidence"]
+        pairs.append((list(claims), list(flight_observations(here)), drawn))
+    (claims, observations, drawn), (other_claims, other_observations, other_drawn) = pairs
+    assert claims == other_claims and observations == other_observations
+    assert all(
+        one.equals(other) and len(one) for one, other in zip(drawn, other_drawn, strict=True)
+    )
 
 
 def test_bounds_that_include_the_limit_decide_nothing(judge):

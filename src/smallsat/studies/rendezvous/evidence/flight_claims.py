@@ -18,6 +18,7 @@ from smallsat.evidence.claims import Judgement, Outcome
 from smallsat.evidence.grounds import Grounds
 from smallsat.studies.rendezvous.configuration import Configuration
 from smallsat.studies.rendezvous.flight_computer.printed_times import printed_averages
+from smallsat.studies.rendezvous.flight_computer.sweeps import swept
 from smallsat.studies.rendezvous.guidance.law import PHASES
 
 FAR, MID, FINAL = PHASES
@@ -40,30 +41,22 @@ class Bench:
         Solver and processor.
     runs, cycles
         Its rows of ``flight/runs.csv`` and ``flight/cycles.csv``.
-    section
-        The configuration, whose sample times and horizons are the defaults.
     """
 
     name: str
     runs: pd.DataFrame
     cycles: pd.DataFrame
-    section: Configuration
 
-    def averages(
-        self, phase: str, horizon: int | None = None, sample_time: float | None = None
-    ) -> np.ndarray:
-        """Average instructions of a solve, of each run of a case."""
-        own = self.section.phases[phase]
-        horizon = own.horizon if horizon is None else horizon
-        sample_time = own.sample_time_s if sample_time is None else sample_time
-        rows: Any = self.runs[
-            (self.runs["phase"] == phase)
-            & (self.runs["horizon"] == horizon)
-            & (self.runs["sample_time_s"] == sample_time)
-        ]
-        if rows.empty:
-            raise LookupError(f"no runs of {phase}, N {horizon}, Ts {sample_time:g} s")
-        return rows["instructions"].to_numpy(dtype=float)
+    def sweep(self, phase: str, varied: str) -> dict[Any, np.ndarray]:
+        """Average instructions of a solve, of each run, by horizon or by sample time, s."""
+        rows = swept(self.runs, phase, varied)
+        return {
+            value: own["instructions"].to_numpy(dtype=float) for value, own in rows.groupby(varied)
+        }
+
+    def averages(self, phase: str, horizon: int) -> np.ndarray:
+        """Average instructions of a solve, of each run of a horizon."""
+        return self.sweep(phase, "horizon")[horizon]
 
     def mean(self, phase: str, horizon: int) -> float:
         """Average over the runs of a horizon."""
@@ -79,7 +72,7 @@ def benches(grounds: Grounds[Configuration]) -> Iterator[Bench]:
     key = ["solver", "processor"]
     cycles = grounds.table("flight/cycles.csv").groupby(key)
     for names, runs in grounds.table("flight/runs.csv").groupby(key):
-        yield Bench(", ".join(map(str, names)), runs, cycles.get_group(names), grounds.section)
+        yield Bench(", ".join(map(str, names)), runs, cycles.get_group(names))
 
 
 def _judged(
@@ -144,7 +137,7 @@ def longer_horizons_take_longer(grounds: Grounds[Configuration]) -> Judgement:
     def judge(bench: Bench) -> tuple[Outcome, str]:
         grows, said = [], []
         for phase in PHASES:
-            means = [bench.mean(phase, n) for n in grounds.section.flight_computer[phase].horizons]
+            means = [float(one.mean()) for one in bench.sweep(phase, "horizon").values()]
             grows += [after > before for before, after in pairwise(means)]
             said.append(f"{phase} {_ratios(means)}")
         return _outcome(all(grows)), ", ".join(said)
@@ -175,22 +168,20 @@ def short_horizons_spread_more(grounds: Grounds[Configuration]) -> Judgement:
 
 
 def _sample_times_are_alike(grounds: Grounds[Configuration], phase: str) -> Judgement:
-    times = grounds.section.flight_computer[phase].sample_times_s
-
     def judge(bench: Bench) -> tuple[Outcome, str]:
-        runs = [bench.averages(phase, sample_time=t) for t in times]
+        sweep = bench.sweep(phase, "sample_time_s")
+        runs = list(sweep.values())
         means, spreads = (np.array([f(one) for one in runs]) for f in (np.mean, np.std))
         alike = means.max() <= SIMILAR_MEAN * means.min()
         alike &= spreads.max() <= SIMILAR_SPREAD * spreads.min()
-        text = ", ".join(f"{m / 1e6:.2f} +- {s / 1e6:.2f}"
-                         for m, s in zip(means, spreads, strict=True))  # fmt: skip
+        text = ", ".join(f"{m / 1e6:.2f} +- {s / 1e6:.2f} for Ts of {t:g} s"
+                         for t, m, s in zip(sweep, means, spreads, strict=True))  # fmt: skip
         return _outcome(alike), text
 
     return _judged(
         grounds,
-        f"million instructions for Ts of {', '.join(f'{t:g}' for t in times)} s, with the runs' "
-        f"deviation; similar is read as averages within a factor of {SIMILAR_MEAN:g} and "
-        f"deviations within {SIMILAR_SPREAD:g}",
+        f"million instructions, with the runs' deviation; similar is read as averages within a "
+        f"factor of {SIMILAR_MEAN:g} and deviations within {SIMILAR_SPREAD:g}",
         judge,
     )
 

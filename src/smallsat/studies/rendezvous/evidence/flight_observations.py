@@ -7,6 +7,7 @@ from smallsat.evidence.observation import Observation
 from smallsat.studies.rendezvous.configuration import Configuration
 from smallsat.studies.rendezvous.evidence.flight_claims import SECOND_MS
 from smallsat.studies.rendezvous.flight_computer.printed_times import PRINTED, printed_averages
+from smallsat.studies.rendezvous.flight_computer.sweeps import swept
 from smallsat.studies.rendezvous.guidance.law import PHASES
 
 SOLVER, PROCESSOR = "generated", "Cortex-A8"
@@ -20,11 +21,7 @@ def flight_observations(grounds: Grounds[Configuration]) -> Iterator[Observation
     table = grounds.rows("flight/cycles.csv", solver=SOLVER, processor=PROCESSOR)
     run = f"{SOLVER}, {PROCESSOR}, {grounds.section.flight_computer.clock_MHz:g} MHz, at most"
     for phase in PHASES:
-        own = table[
-            (table["phase"] == phase)
-            & (table["sample_time_s"] == grounds.section.phases[phase].sample_time_s)
-            & (table["solve"] == "mean")
-        ].set_index("horizon")
+        own = swept(table[table["solve"] == "mean"], phase, "horizon").set_index("horizon")
         for horizon in printed_averages(grounds.ledger, phase):
             name = f"rendezvous/{PRINTED[phase]}-{horizon}"
             yield Observation(name, float(own["ms_high"][horizon]), run)

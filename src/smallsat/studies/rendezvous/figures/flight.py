@@ -13,8 +13,9 @@ from matplotlib.pyplot import subplots
 from smallsat.drawing.figure import Drawing
 from smallsat.drawing.style import BLUE, GREEN, GREY, ORANGE, VERMILION, WIDTH
 from smallsat.evidence.ledger import Ledger
-from smallsat.studies.rendezvous.configuration import FlightComputer, Phases
+from smallsat.studies.rendezvous.configuration import FlightComputer
 from smallsat.studies.rendezvous.flight_computer.printed_times import printed_averages
+from smallsat.studies.rendezvous.flight_computer.sweeps import swept
 from smallsat.studies.rendezvous.guidance.law import PHASES
 
 COLOURS = (BLUE, VERMILION, GREEN, ORANGE)
@@ -87,25 +88,15 @@ def plan(settings: FlightComputer) -> Drawing:
     return figure, table
 
 
-def _printed_width(
-    runs: pd.DataFrame, settings: FlightComputer, phases: Phases, ledger: Ledger
-) -> float:
+def _printed_width(runs: pd.DataFrame, bin_ms: float, ledger: Ledger) -> float:
     """Figure 6.3's bin in instructions: the share that it is of the printed average for N1 = 30."""
-    own = (runs["horizon"] == phases.far.horizon) & (
-        runs["sample_time_s"] == phases.far.sample_time_s
-    )
-    printed = printed_averages(ledger, PHASES[0])[phases.far.horizon].value
-    return float(runs.loc[own, "instructions"].mean()) * settings.bin_ms / printed
+    horizon = swept(runs, PHASES[0], "sample_time_s")["horizon"].iloc[0]
+    own = swept(runs, PHASES[0], "horizon")
+    mean = own.loc[own["horizon"] == horizon, "instructions"].mean()
+    return float(mean) * bin_ms / printed_averages(ledger, PHASES[0])[horizon].value
 
 
-def counts(
-    runs: pd.DataFrame,
-    phase: str,
-    varied: str,
-    settings: FlightComputer,
-    phases: Phases,
-    ledger: Ledger,
-) -> Drawing:
+def counts(runs: pd.DataFrame, phase: str, varied: str, bin_ms: float, ledger: Ledger) -> Drawing:
     """Figures 6.3 to 6.7: average instructions of a solve, of each run, as histograms by solver.
 
     Parameters
@@ -114,29 +105,25 @@ def counts(
         ``flight/runs.csv`` of one processor.
     phase, varied
         The phase, and what is varied in it: ``horizon`` or ``sample_time_s``.
-    settings, phases, ledger
-        What was varied, the defaults, and the printed averages. The far range has the document's
-        bin width, in proportion to its average; the others have none printed, and `BINS` each.
+    bin_ms, ledger
+        The document's bin width and its averages. The far range is drawn in this width, in
+        proportion to its average; the others have none printed, and `BINS` each.
     """
-    label, unit, fixed, values = (
-        ("N", "", "sample_time_s", settings[phase].horizons)
-        if varied == "horizon"
-        else ("Ts", " s", "horizon", settings[phase].sample_times_s)
-    )
-    default = phases[phase][fixed]
+    label, unit = ("N", "") if varied == "horizon" else ("Ts", " s")
+    own = swept(runs, phase, varied)
+    values = sorted(own[varied].unique())
     figure, panels = subplots(1, 2, figsize=(WIDTH, 2.7), sharey=True)
     drawn = []
     for panel, (solver, title) in zip(panels, TITLES.items(), strict=True):
-        rows = runs[(runs["solver"] == solver) & (runs["phase"] == phase)]
-        own = rows[rows[fixed] == default]
-        low, high = own["instructions"].min(), own["instructions"].max()
+        rows = own[own["solver"] == solver]
+        low, high = rows["instructions"].min(), rows["instructions"].max()
         width = (high - low) / BINS
         if phase == PHASES[0]:
-            width = _printed_width(rows, settings, phases, ledger)
+            width = _printed_width(runs[runs["solver"] == solver], bin_ms, ledger)
         first = np.floor(low / width) * width
         edges = first + width * np.arange(np.ceil((high - first) / width) + 1.5)
         for colour, value in zip(COLOURS, values, strict=False):
-            number, _ = np.histogram(own.loc[own[varied] == value, "instructions"], edges)
+            number, _ = np.histogram(rows.loc[rows[varied] == value, "instructions"], edges)
             filled = {"fill": True, "alpha": 0.3, "lw": 0}
             for style in (filled, {"label": f"{label} {value:g}{unit}"}):
                 panel.stairs(number, edges / MILLION, color=colour, **style)
