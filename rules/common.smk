@@ -18,7 +18,7 @@ def results(study, *names):
 
 def sources(command, *modules):
     """Source files that a command runs, so that editing any of them reruns the rule."""
-    return [os.path.relpath(path) for path in source_files("smallsat.__main__", command, *modules)]
+    return [os.path.relpath(path) for path in source_files(command, *modules)]
 
 
 def figure_files(*stems):

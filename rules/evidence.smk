@@ -1,8 +1,5 @@
 # Evidence: errata proven, claims and values judged, study by study; then all verdicts in one table.
 
-SUMMARY = (
-    "python -m smallsat summary {input.verdicts} --published {params.published} {params.what_if}"
-)
 LEDGERS = [file for study in STUDIES for file in published_files(study, "study.yaml", "values.csv")]
 WHAT_IF = "" if RUN_FOLDER == "." else "--what-if"
 
@@ -125,7 +122,8 @@ rule accept_verdicts:
     message:
         "Check that no verdict is wrong"
     shell:
-        f"{SUMMARY} > {{log}} 2>&1"
+        "python -m smallsat summary {input.verdicts} --published {params.published}"
+        " {params.what_if} > {log} 2>&1"
 
 
 rule verdicts:
@@ -137,18 +135,22 @@ rule verdicts:
         "Verdicts: data/results/verdicts.csv"
 
 
-# Has no output: it prints the summary every time it is asked for.
+# Has no output: it counts every time it is asked for, and of the reproduction says what has moved
+# since the accepted results.
 rule check:
     input:
         verdicts="data/results/verdicts.csv",
         ledgers=LEDGERS,
         not_converged=NOT_CONVERGED,
+        findings=[path for study in STUDIES for path in results(study, "errata.csv", "claims.csv")],
     log:
         "logs/check.log",
     params:
         published=lambda w, input: Path(input.ledgers[0]).parents[1],
         what_if=WHAT_IF,
+        command="summary" if WHAT_IF else "check",
     message:
         "Count the verdicts"
     shell:
-        f"{SUMMARY} | tee {{log}}; exit ${{{{PIPESTATUS[0]}}}}"
+        "python -m smallsat {params.command} {input.verdicts} --published {params.published}"
+        " {params.what_if} | tee {log}; exit ${{PIPESTATUS[0]}}"

@@ -7,13 +7,15 @@ from importlib import import_module
 from smallsat.errors import report_input_errors
 
 # Each command is a module with `add_arguments` and `main`, and is imported alone: a rule's sources
-# are those of its command.
+# are those of its command. This file is a source of no rule, so that a new command reruns nothing.
 COMMANDS = {
     "run": "smallsat.workflow.run_step",
     "notebook": "smallsat.workflow.notebook",
     "judge": "smallsat.evidence.judge",
     "merge": "smallsat.evidence.merge",
     "summary": "smallsat.evidence.summary",
+    "check": "smallsat.evidence.check",
+    "accept": "smallsat.evidence.accept",
     "explain": "smallsat.workflow.explain",
     "content": "smallsat.report.content",
     "typeset": "smallsat.report.typesetting",

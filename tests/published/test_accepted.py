@@ -1,96 +1,96 @@
-"""What each claim and each proof came to is pinned in ``data/accepted/<study>``: a flip is shown.
-
-``claims.csv`` has two outcomes a claim: of the reproduction, and of the run that `make test` makes,
-in which the Monte Carlo parts have a share of their samples and some claims stay undecided.
-``errata.csv`` says whether a proof holds, in either run.
-"""
+"""What each value, claim and proof came to is pinned in ``data/accepted``: a flip is shown."""
 
 import pandas as pd
 import pytest
 
-ACCEPT = (
-    "if the change is right, edit {file} in a commit that says why it changed; "
-    "if not, find what changed it"
-)
-
-
-def flips(accepted, found, name, column, file):
-    """Lines that say what differs from the accepted outcomes; none where all is as accepted.
-
-    Parameters
-    ----------
-    accepted, found
-        Outcome by (study, name); what was found with its evidence, as columns of a frame.
-    """
-    lines = []
-    for key in sorted(set(accepted) | set(found.index)):
-        before = accepted.get(key, "not listed")
-        now = found.loc[key, column] if key in found.index else "no longer judged"
-        if before != now:
-            evidence = found.loc[key, name] if key in found.index else ""
-            lines.append(f"{key[0]}: {key[1]}: accepted {before}, now {now}: {evidence}")
-    return [*lines, ACCEPT.format(file=file)] if lines else []
-
-
-def accepted_of(root, file, name, column):
-    tables = [
-        pd.read_csv(path, dtype=str).assign(study=path.parent.name)
-        for path in sorted(root.glob(file))
-    ]
-    table = pd.concat(tables).fillna("nothing yet").set_index(["study", name])
-    assert table.index.is_unique
-    return table[column].to_dict()
-
-
-def found_in(run, table, name):
-    paths = sorted((run / "data/results").glob(f"*/{table}.csv"))
-    frames = [pd.read_csv(path).assign(study=path.parent.name) for path in paths]
-    return pd.concat(frames).set_index(["study", name])
+from smallsat.errors import InputError
+from smallsat.evidence.accept import accept
+from smallsat.evidence.accepted import SHARE, findings, flipped, movement_text
+from smallsat.results import read_table, write_table
 
 
 @pytest.fixture(params=["share", "reproduction"])
 def judged_run(request, root):
     """The run of `make test`, and the reproduction where it is there."""
     if request.param == "share":
-        return request.getfixturevalue("tested_run"), "outcome_of_a_share"
+        return request.getfixturevalue("tested_run"), SHARE
     if not (root / "data/results/verdicts.csv").exists():
         pytest.skip("the reproduction is not built here")
-    return root, "outcome"
+    return root, ""
 
 
-def test_no_claim_flips(root, judged_run):
-    """Every claim has its accepted outcome."""
-    run, column = judged_run
-    file = "data/accepted/*/claims.csv"
-    accepted = accepted_of(root, file, "id", column)
-    found = flips(accepted, found_in(run, "claims", "id"), "evidence", "outcome", file)
-    assert not found, "\n".join(found)
+def test_no_outcome_flips(root, judged_run):
+    """Every printed value, claim and proof is judged as accepted, and none is new or lost."""
+    run, of = judged_run
+    before, now = findings(root / "data/accepted", of), findings(run / "data/results")
+    assert not len(flipped(before, now)), movement_text(before, now)
+    assert set(before.index) == set(now.index), (
+        "if right, in the full build: make accept REASON=..."
+    )
 
 
-def test_no_proof_flips(root, judged_run):
-    """Every proof holds or fails as accepted."""
-    run, _ = judged_run
-    file = "data/accepted/*/errata.csv"
-    accepted = accepted_of(root, file, "key", "holds")
-    found = found_in(run, "errata", "key").astype({"holds": str})
-    found = flips(accepted, found, "statement", "holds", file)
-    assert not found, "\n".join(found)
+@pytest.fixture
+def made(tmp_path):
+    """Writes results of one study: verdict and computed of a value, outcome of a claim."""
+
+    def write(folder, computed=1.0, verdict="reproduced", outcome="holds", key="velocity"):
+        study = tmp_path / folder / "mars"
+        values = {"id": ["mars/a", "mars/b"], "computed": [computed, None]}
+        write_table(
+            pd.DataFrame(values | {"verdict": [verdict, "context"]}), study / "verdicts.csv"
+        )
+        claims = pd.DataFrame({"id": [key], "outcome": [outcome], "evidence": "because"})
+        write_table(claims, study / "claims.csv")
+        write_table(pd.DataFrame({"key": ["sign"], "holds": [True]}), study / "errata.csv")
+        return tmp_path / folder
+
+    return write
 
 
 @pytest.mark.parametrize(
-    ("outcomes", "words"),
+    ("changes", "words"),
     [
-        ({"a": "holds"}, []),
-        ({"a": "fails"}, ["mars: a: accepted holds, now fails: because", "data/accepted/x.csv"]),
-        ({"a": "holds", "b": "holds"}, ["mars: b: accepted not listed, now holds"]),
-        ({}, ["mars: a: accepted holds, now no longer judged"]),
+        ({}, ["Nothing has moved."]),
+        ({"computed": 1.0 + 1e-11}, ["1 values moved within rounding"]),
+        ({"computed": 1.25}, ["1 values moved, the largest first:", "mars/a: 1, now 1.25 (20 %)"]),
+        ({"computed": None}, ["mars/a: 1, now nan"]),
+        ({"verdict": "mismatch"}, ["1 outcomes are not", "mars/a: reproduced, now mismatch"]),
+        ({"outcome": "fails"}, ["mars/claims/velocity: holds, now fails"]),
+        ({"key": "other"}, ["1 findings are new", "1 findings are accepted and not found"]),
     ],
 )
-def test_a_flip_is_shown(outcomes, words):
-    """A changed outcome, a new claim and a lost one are lines; the last says how to accept."""
-    keys = pd.MultiIndex.from_tuples([("mars", key) for key in outcomes], names=["study", "id"])
-    found = pd.DataFrame({"outcome": list(outcomes.values()), "evidence": "because"}, index=keys)
-    file = "data/accepted/x.csv"
-    text = "\n".join(flips({("mars", "a"): "holds"}, found, "evidence", "outcome", file))
-    assert bool(text) == bool(words)
-    assert all(word in text for word in words)
+def test_what_moved_is_said(made, changes, words):
+    """By how much, the largest first; flips and what is new or lost by name or number."""
+    text = movement_text(findings(made("before")), findings(made("now", **changes)))
+    assert all(word in text for word in words), text
+
+
+def test_accepted_results_are_what_was_found(made, tmp_path):
+    """Afterwards nothing has moved, of both runs; a line says when, why and how much changed."""
+    results, share, accepted = (
+        made("results"),
+        made("share", outcome="undecided"),
+        tmp_path / "kept",
+    )
+    accept(results, share, accepted, "first", "2026-01-01")
+    accept(
+        made("results", computed=2.0, outcome="fails"),
+        share,
+        accepted,
+        "of  the\nair",
+        "2026-01-02",
+    )
+    assert movement_text(findings(accepted), findings(results)) == "Nothing has moved."
+    assert movement_text(findings(accepted, SHARE), findings(share)).count("moved") == 1
+    assert not len(flipped(findings(accepted, SHARE), findings(share)))
+    last = read_table(accepted / "releases.csv").iloc[-1].to_dict()
+    assert last == {"date": "2026-01-02", "reason": "of the air", "outcomes": 1, "values": 1}
+
+
+def test_what_is_not_accepted(made, tmp_path):
+    """Results without a reason, and a wrong verdict, are refused in a line; nothing is written."""
+    with pytest.raises(InputError, match="no reason"):
+        accept(made("results"), made("share"), tmp_path / "kept", " ", "2026-01-01")
+    with pytest.raises(InputError, match="mars/a: its verdict is wrong"):
+        accept(made("results", verdict="mismatch"), made("share"), tmp_path / "kept", "x", "")
+    assert not (tmp_path / "kept").exists()
