@@ -9,7 +9,7 @@ export PIP_USER := 0
 PIP := $(VENV)/bin/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := all
-.PHONY: all test test-site explain accept what-ifs lint animations flight benchmark benchmark-baseline lock clean
+.PHONY: all test test-site explain compare accept what-ifs lint animations flight benchmark benchmark-baseline lock clean
 
 all: $(VENV)/installed
 	@snakemake all
@@ -45,6 +45,10 @@ test-site: $(VENV)/installed
 # All that is known of a printed value, erratum, claim, table or figure; RUN=runs/<name> for a what-if.
 explain: $(VENV)/installed
 	@python -m smallsat explain "$$ID" $(if $(RUN),--run "$$RUN")
+
+# What-if runs side by side, and beside the reproduction, in one page: RUNS="runs/heavier runs/lighter".
+compare: $(VENV)/installed
+	@python -m smallsat compare $(RUNS)
 
 # Takes the present results, of the reproduction and of the tests' run, as accepted; REASON says why.
 accept: $(VENV)/installed

@@ -2,6 +2,7 @@
 
 LEDGERS = [file for study in STUDIES for file in published_files(study, "study.yaml", "values.csv")]
 WHAT_IF = "" if RUN_FOLDER == "." else "--what-if"
+FINDINGS = ("verdicts.csv", "errata.csv", "claims.csv")
 
 
 for study in STUDIES:
@@ -28,7 +29,7 @@ for study in STUDIES:
             ),
             results=results(study, *JUDGED[study]),
         output:
-            results(study, "errata.csv", "claims.csv", "verdicts.csv"),
+            results(study, *FINDINGS),
         log:
             f"logs/{study}/verdicts.log",
         benchmark:
@@ -80,7 +81,8 @@ for study in STUDIES:
             targets(study, "table", "figure"),
             [path for path in MADE[study] if path.startswith("data/results")],
             [f"{stem}.svg" for run in RUNS[study] for stem in run.stems],
-            results(study, "errata.csv", "claims.csv", "verdicts.csv"),
+            results(study, *FINDINGS),
+            [f"report/build/{study}-comparison.html"] * bool(WHAT_IF),
         log:
             f"logs/{study}/all.log",
         message:
@@ -142,7 +144,7 @@ rule check:
         verdicts="data/results/verdicts.csv",
         ledgers=LEDGERS,
         not_converged=NOT_CONVERGED,
-        findings=[path for study in STUDIES for path in results(study, "errata.csv", "claims.csv")],
+        findings=[path for study in STUDIES for path in results(study, *FINDINGS)],
     log:
         "logs/check.log",
     params:

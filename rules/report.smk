@@ -82,6 +82,8 @@ for report, shown in REPORTS.items():
                 for study in shown
                 for figure in report_figures(study)
             ],
+            # Comes with the report of a what-if run.
+            comparisons=[f"report/build/{study}-comparison.html" for study in shown if WHAT_IF],
         # The whole as a page is the site; one study, which a what-if asks for, is a single page.
         output:
             [f"report/build/{report}.{suffix}" for suffix in ["pdf"] + ["html"] * bool(prefix)],
@@ -122,11 +124,7 @@ rule site:
             if path.suffix in (".yaml", ".csv")
         ],
         drawings=[project(f"notebooks/{study}/figures.yaml") for study in STUDIES],
-        findings=[
-            path
-            for study in STUDIES
-            for path in results(study, "verdicts.csv", "errata.csv", "claims.csv")
-        ],
+        findings=[path for study in STUDIES for path in results(study, *FINDINGS)],
         results=[path for study, names in SCENES.items() for path in results(study, *names)],
     output:
         directory("report/build/site"),
@@ -141,6 +139,65 @@ rule site:
     shell:
         "python -m smallsat site {input.content} --project {params.project} --output {output}"
         " > {log} 2>&1"
+
+
+# A what-if run ends with what differs from the reproduction, or from its accepted results where it is
+# not built.
+if WHAT_IF:
+
+    rule changes:
+        input:
+            sources=sources("smallsat.workflow.changes"),
+        output:
+            "changes.json",
+        log:
+            "logs/changes.log",
+        params:
+            config=as_json(CONFIG),
+            default=as_json(DEFAULT),
+        message:
+            "Write down what this run changes"
+        shell:
+            "python -m smallsat changes --config {params.config:q} --default {params.default:q}"
+            " --output {output} > {log} 2>&1"
+
+    for study in STUDIES:
+
+        rule:
+            name:
+                f"compare_{study}"
+            input:
+                sources=sources("smallsat.site.comparison"),
+                changes="changes.json",
+                pages=[
+                    project(f"report/{name}")
+                    for name in ("style.css", "site/site.css", "site/comparison.html.j2")
+                ],
+                published=published_files(
+                    study, "values.csv", "errata.yaml", "claims.yaml", "artefacts.csv"
+                ),
+                results=results(study, *FINDINGS, "not-converged.csv"),
+                figures=[f"{stem}.csv" for run in RUNS[study] for stem in run.stems],
+                reproduction=[
+                    project(path)
+                    for path in (
+                        *results(study, *FINDINGS),
+                        *[f"{stem}.csv" for run in FIGURES[study] for stem in run.stems],
+                    )
+                    if (ROOT / path).exists()
+                ],
+            output:
+                f"report/build/{study}-comparison.html",
+            log:
+                f"logs/report/{study}-comparison.log",
+            params:
+                study=study,
+                project=lambda w, input: Path(input.pages[0]).parents[1],
+            message:
+                f"Compare with the reproduction: report/build/{study}-comparison.html"
+            shell:
+                "python -m smallsat compare . --study {params.study} --project {params.project}"
+                " --output {output} | tee {log}"
 
 
 rule animations:

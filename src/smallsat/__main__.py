@@ -17,6 +17,8 @@ COMMANDS = {
     "check": "smallsat.evidence.check",
     "accept": "smallsat.evidence.accept",
     "explain": "smallsat.workflow.explain",
+    "changes": "smallsat.workflow.changes",
+    "compare": "smallsat.site.comparison",
     "content": "smallsat.report.content",
     "typeset": "smallsat.report.typesetting",
     "site": "smallsat.site.pages",

@@ -5,7 +5,7 @@ import hashlib
 import json
 import re
 import reprlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from functools import cache
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args, get_origin
@@ -142,6 +142,22 @@ def as_json(value: Any) -> str:
     return json.dumps(value, sort_keys=True, default=Part.model_dump)
 
 
+def departures(config: Values, default: Values) -> list[Values]:
+    """Where a configuration departs from the documents' own: ``key``, ``value`` and ``default``.
+
+    Parameters
+    ----------
+    config, default
+        As plain data, with the same keys; the name of the run is none of it.
+    """
+    own, reference = ({**values, "run": ""} for values in (config, default))
+    return [
+        {"key": key, "value": ours, "default": theirs}
+        for (key, ours), (_, theirs) in zip(_leaves(own), _leaves(reference), strict=True)
+        if ours != theirs
+    ]
+
+
 def lookup(config: Any, key: str) -> Any:
     """Value at a dotted key such as ``mars.orbits.lmo.altitude_km`` or ``transfer.degrees.0``."""
     value = config
@@ -161,6 +177,14 @@ def merged(config: Any, overlay: Any) -> Any:
             for key, value in overlay.items()
         }
     return overlay
+
+
+def _leaves(value: Any, key: str = "") -> Iterator[tuple[str, str]]:
+    if isinstance(value, dict):
+        for name in sorted(value):
+            yield from _leaves(value[name], f"{key}.{name}" if key else name)
+    else:
+        yield key, json.dumps(value)
 
 
 def _one_line(model: type[Part], type: str, loc: tuple[Any, ...], input: Any, **more: Any) -> str:

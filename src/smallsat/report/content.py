@@ -4,14 +4,14 @@ import argparse
 import hashlib
 import json
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
 from smallsat.catalogue import read_catalogue
-from smallsat.config import Values
+from smallsat.config import Values, departures
 from smallsat.errors import InputError
 from smallsat.evidence.ledger import read_artefacts
 from smallsat.evidence.not_converged import read_not_converged
@@ -225,22 +225,13 @@ def _cell(value: Any) -> str:
 def _run(project: Path, run: Path, config: Values, default: Values) -> Content:
     """Which run this is: its folder, its configuration and where that departs from the default."""
     folder = run.resolve().relative_to(project.resolve()).as_posix()
-    own, reference = ({**values, "run": ""} for values in (config, default))
-    changes = [
-        {"key": key, "value": ours, "default": theirs}
-        for (key, ours), (_, theirs) in zip(_leaves(own), _leaves(reference), strict=True)
-        if ours != theirs
-    ]
-    digest = hashlib.sha256(json.dumps(own, sort_keys=True).encode()).hexdigest()
-    return {"folder": folder, "what_if": folder != ".", "digest": digest[:12], "changes": changes}
-
-
-def _leaves(value: Any, key: str = "") -> Iterator[tuple[str, str]]:
-    if isinstance(value, dict):
-        for name in sorted(value):
-            yield from _leaves(value[name], f"{key}.{name}" if key else name)
-    else:
-        yield key, json.dumps(value)
+    text = json.dumps({**config, "run": ""}, sort_keys=True)
+    return {
+        "folder": folder,
+        "what_if": folder != ".",
+        "digest": hashlib.sha256(text.encode()).hexdigest()[:12],
+        "changes": departures(config, default),
+    }
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
