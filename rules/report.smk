@@ -10,7 +10,7 @@ TIMINGS = [path for study in STUDIES for path in MADE[study] if Path(path).name 
 REPORTS = {"report": STUDIES} | {study: [study] for study in STUDIES}
 
 for report, shown in REPORTS.items():
-    prefix = "" if report == "report" else f"{report}_"
+    prefix, logs = ("", "logs") if report == "report" else (f"{report}_", f"logs/{report}")
 
     rule:
         name:
@@ -51,9 +51,9 @@ for report, shown in REPORTS.items():
         output:
             f"report/build/{report}.json",
         log:
-            f"logs/report/{report}-content.log",
+            f"{logs}/report_content.log",
         benchmark:
-            f"logs/report/{report}-content.benchmark.tsv"
+            f"{logs}/report_content.benchmark.tsv"
         params:
             project=project("."),
             config=as_json(CONFIG),
@@ -88,9 +88,9 @@ for report, shown in REPORTS.items():
         output:
             [f"report/build/{report}.{suffix}" for suffix in ["pdf"] + ["html"] * bool(prefix)],
         log:
-            f"logs/report/{report}.log",
+            f"{logs}/report.log",
         benchmark:
-            f"logs/report/{report}.benchmark.tsv"
+            f"{logs}/report.benchmark.tsv"
         params:
             project=lambda w, input: Path(input.template).parents[1],
         message:
@@ -129,9 +129,9 @@ rule site:
     output:
         directory("report/build/site"),
     log:
-        "logs/report/site.log",
+        "logs/site.log",
     benchmark:
-        "logs/report/site.benchmark.tsv"
+        "logs/site.benchmark.tsv"
     params:
         project=lambda w, input: Path(input.template).parents[1],
     message:

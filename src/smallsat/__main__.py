@@ -16,6 +16,7 @@ COMMANDS = {
     "summary": "smallsat.evidence.summary",
     "check": "smallsat.evidence.check",
     "accept": "smallsat.evidence.accept",
+    "seconds": "smallsat.workflow.seconds",
     "explain": "smallsat.workflow.explain",
     "changes": "smallsat.workflow.changes",
     "compare": "smallsat.site.comparison",

@@ -1,6 +1,7 @@
 """The workflow itself: one figure, a changed source, a what-if run, a kill, a damaged file."""
 
 import os
+import re
 import signal
 import subprocess
 import time
@@ -25,6 +26,10 @@ def built(make_project):
     project = make_project()
     done = project.snakemake("figures/transfer/fig-05.svg", "data/results/mars/modes.csv")
     assert done.returncode == 0, done.stdout + done.stderr
+    total = len(re.findall(r"^\[\d+/\d+\] .* \(.*\)", done.stderr, re.MULTILINE))
+    last = done.stderr.splitlines()[-1]
+    assert re.search(rf"^{total} jobs on 2 cores, ", done.stderr, re.MULTILINE), done.stderr
+    assert last.startswith(f"[{total}/{total}] "), done.stderr
     return project
 
 
@@ -107,6 +112,11 @@ def test_a_truncated_results_file_is_named(built):
     assert done.returncode != 0
     assert "smallsat: data/results/transfer/indirect.parquet: damaged results file" in output
     assert "Traceback" not in output
+    assert output.count("smallsat: ") == 1
+    assert "FAILED transfer: draw figures-indirect-n0-k1\n" in output
+    (retry,) = re.findall("^    retry: (.*)$", output, re.MULTILINE)
+    assert retry == "snakemake transfer_figures_indirect_n0_k1"
+    assert "Nothing to be done" not in built.jobs(*retry.split()[1:])
     assert (built.folder / "data/results/transfer/indirect.csv").exists()
 
 

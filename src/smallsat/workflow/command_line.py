@@ -56,6 +56,18 @@ def understood(words: Sequence[str]) -> list[str]:
     return [*targets, *rest]
 
 
+def settings_of(words: Sequence[str]) -> list[str]:
+    """Those of understood words that say which run is meant: its settings and files."""
+    kept: list[str] = []
+    keeps = False
+    for word in words:
+        if word.startswith("-"):
+            keeps = word.partition("=")[0] in _TAKES
+        if keeps:
+            kept.append(word)
+    return kept
+
+
 def check_settings(words: Sequence[str]) -> None:
     """Refuse settings and files that Snakemake would answer with a traceback.
 
