@@ -9,7 +9,7 @@ export PIP_USER := 0
 PIP := $(VENV)/bin/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := all
-.PHONY: all test test-site explain compare accept what-ifs lint animations flight benchmark benchmark-baseline lock clean accept-seconds
+.PHONY: all test test-site explain compare accept what-ifs lint animations flight benchmark benchmark-baseline lock clean accept-seconds lab
 
 all: $(VENV)/installed
 	@snakemake all
@@ -55,6 +55,14 @@ accept: $(VENV)/installed
 	@snakemake verdicts
 	@snakemake verdicts --configfile config/tests.yaml
 	@python -m smallsat accept --reason "$$REASON"
+# The notebooks in JupyterLab, which the first call installs; what they draw goes into runs/lab.
+# LAB has options of JupyterLab, such as --no-browser.
+lab: $(VENV)/lab
+	@python -m smallsat lab -- $(LAB)
+
+$(VENV)/lab: requirements.lab.lock $(VENV)/installed
+	$(PIP) --require-hashes -r requirements.lab.lock
+	@touch $@
 
 # Modest changes of every study, one line each: done, refused with the reason, or not converged.
 what-ifs: $(VENV)/installed
@@ -95,6 +103,7 @@ benchmark-baseline: $(VENV)/installed
 lock:
 	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.in -o requirements.lock
 	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.browser.in -c requirements.lock -o requirements.browser.lock
+	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.lab.in -c requirements.lock -o requirements.lab.lock
 
 clean:
 	rm -rf data/results figures report/build runs logs .snakemake .cache

@@ -67,6 +67,7 @@ for study in STUDIES:
                 {
                     "artefacts": project(f"data/published/{study}/artefacts.csv"),
                     "verdicts": f"data/results/{study}/verdicts.csv",
+                    "folder": ".",
                 }
             ),
         message:

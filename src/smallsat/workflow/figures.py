@@ -70,6 +70,8 @@ class NotebookRun:
             given["film"] = f"figures/{self.study}/{self.film}.mp4"
         else:
             given |= {"folder": f"figures/{self.study}", "figures": dict(self.figures)}
+        if self.makes:
+            given["made"] = results
         if isinstance(self.section, str):
             kind = getattr(study_module(self.study, "configuration"), self.section)
             given["section"] = section.only(kind)
