@@ -9,7 +9,7 @@ export PIP_USER := 0
 PIP := $(VENV)/bin/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := all
-.PHONY: all test test-site explain compare accept what-ifs lint animations flight benchmark benchmark-baseline lock clean accept-seconds lab
+.PHONY: all test test-site explain compare accept what-ifs lint animations flight benchmark benchmark-baseline lock clean accept-seconds lab dag
 
 all: $(VENV)/installed
 	@snakemake all
@@ -78,6 +78,10 @@ lint: $(VENV)/installed
 
 animations: $(VENV)/installed
 	@snakemake animations
+
+# The picture of docs/architecture.md, from Snakemake's own graph of the rules.
+dag: $(VENV)/installed
+	@snakemake --quiet all --rulegraph mermaid-js all | python -m smallsat dag --output docs/dag.svg
 
 # Chapter 6 of the rendezvous study counted anew on an emulated flight computer; every build takes
 # the tables that this exchanges.

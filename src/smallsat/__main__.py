@@ -20,6 +20,7 @@ COMMANDS = {
     "explain": "smallsat.workflow.explain",
     "changes": "smallsat.workflow.changes",
     "compare": "smallsat.site.comparison",
+    "dag": "smallsat.workflow.dag",
     "lab": "smallsat.workflow.lab",
     "content": "smallsat.report.content",
     "typeset": "smallsat.report.typesetting",
