@@ -22,9 +22,8 @@ from smallsat.catalogue import read_catalogue
 from smallsat.drawing.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, apply_style
 from smallsat.workflow.figures import read_runs
 
-# 1000 pixels wide at the dots per inch of an SVG in a browser, so that a page shows it unscaled.
-_PIXELS_PER_IN = 100
-# Inches: columns, rows, nodes, and what is between the studies and what joins them.
+# Inches: columns, rows, nodes, and what is between the studies and what joins them. A browser shows
+# the whole 1000 pixels wide, in which its letters are read.
 _COLUMN, _ROW, _NODE, _GAP = 1.18, 0.84, (0.98, 0.26), 0.5
 # Where in its row a group stands, as a share of the row's height.
 _LANES = {"steps": 0.0, "notebooks": -0.24, "tables": 0.0, "verdicts": 0.24}
@@ -205,4 +204,4 @@ def main(arguments: argparse.Namespace) -> None:
     graph = condensed(*rule_edges(sys.stdin.read()), grouping(studies, notebooks))
     figure = drawn(graph, studies)
     metadata = {"Date": None, "Description": str(graph)}
-    figure.savefig(arguments.output, dpi=_PIXELS_PER_IN, facecolor="white", metadata=metadata)
+    figure.savefig(arguments.output, facecolor="white", metadata=metadata)
