@@ -1,5 +1,6 @@
 """The estimate of what a build still takes: against small plans whose answer is plain."""
 
+import numpy as np
 import pytest
 
 from smallsat.workflow.estimate import duration, pace, seconds_left
@@ -44,6 +45,34 @@ def test_a_job_without_a_time_takes_the_median_and_too_few_times_give_no_estimat
     assert left(ALONE, {"a": 10.0, "b": 20.0, "c": 60.0}) == 110.0
     assert left(ALONE, {"a": 10.0}) is None
     assert left(ALONE, {}) is None
+
+
+@pytest.mark.parametrize("cores", [1, 2, 4])
+def test_the_estimate_holds_along_a_simulated_build(cores):
+    """Sixty jobs of very different lengths, each waiting for one before, half as fast as expected.
+
+    Both bounds are lower ones, so it never takes less; and in whatever order ready jobs are begun,
+    less than twice as long as the larger of them (Graham, 1966). On one core it is exact.
+    """
+    random = np.random.default_rng(20240501)
+    expected = {f"job {n}": float(s) for n, s in enumerate(random.lognormal(3.0, 1.2, 60))}
+    jobs = list(expected)
+    waits = {job: {jobs[int(random.integers(n))]} if n else set() for n, job in enumerate(jobs)}
+    seen, ends, running, said, now, begun = {}, {}, [], [], 0.0, set()
+    while len(seen) < len(jobs):
+        for job in jobs:
+            if len(running) < cores and job not in begun and waits[job] <= seen.keys():
+                begun.add(job)
+                running.append((now + 2.0 * expected[job], now, job))
+        running.sort()
+        now, began, done = running.pop(0)
+        seen[done], ends[done] = now - began, now
+        elapsed = {job: now - start for _, start, job in running}
+        said.append((now, seconds_left(waits, expected, seen, elapsed, cores)))
+    for when, left in said[:-1]:
+        factor = 2.0 / pace(expected, {job: seen[job] for job in seen if ends[job] <= when})
+        assert factor * left <= (now - when) * (1.0 + 1e-9)
+        assert now - when < (2.0 if cores > 1 else 1.0 + 1e-9) * factor * left
 
 
 @pytest.mark.parametrize(

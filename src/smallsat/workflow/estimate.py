@@ -32,7 +32,8 @@ def seconds_left(
     """Seconds until all jobs are done.
 
     The larger of two lower bounds, each at the `pace` so far: the work left, shared out over the
-    cores, and the longest chain of jobs that wait for one another.
+    cores, and the longest chain of jobs that wait for one another. No order of the jobs takes twice
+    as long (R. L. Graham, Bounds for certain multiprocessing anomalies, 1966).
 
     Parameters
     ----------
