@@ -5,7 +5,10 @@ TEMPLATES = [
     project(path.relative_to(ROOT))
     for folder in ("parts", "chapters", "summaries")
     for path in sorted((ROOT / "report" / folder).glob("*.typ"))
-] + [project("report/style.css")]
+] + [
+    project(path)
+    for path in ("report/style.css", "report/references.yaml", "CITATION.cff", "requirements.lock")
+]
 TIMINGS = [path for study in STUDIES for path in MADE[study] if Path(path).name == "timings.csv"]
 REPORTS = {"report": STUDIES} | {study: [study] for study in STUDIES}
 
@@ -75,13 +78,7 @@ for report, shown in REPORTS.items():
             template=project("report/report.typ"),
             parts=TEMPLATES,
             content=f"report/build/{report}.json",
-            # The page shows the SVG, the PDF takes in the PDF.
             figures=[report_figures(study) for study in shown],
-            drawings=[
-                str(Path(figure).with_suffix(".pdf"))
-                for study in shown
-                for figure in report_figures(study)
-            ],
             # Comes with the report of a what-if run.
             comparisons=[f"report/build/{study}-comparison.html" for study in shown if WHAT_IF],
         # The whole as a page is the site; one study, which a what-if asks for, is a single page.

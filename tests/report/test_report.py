@@ -85,6 +85,7 @@ def project(tmp_path_factory):
     (folder / "report/summaries/transfer.typ").write_text(
         '#import "/report/parts/content.typ": printed, number-of, claims-with\n'
         '#let picture = ("figures/transfer/fig-01", "A line that rises.")\n'
+        "#let figures = ()\n"
         '#let holds = [Half of it: #printed("transfer/a") s comes out; results reproduced: '
         '#number-of("transfer", "reproduced"), claims that fail: '
         '#claims-with("transfer", "fails").]'
@@ -94,6 +95,9 @@ def project(tmp_path_factory):
         '$ dot(r) = v $ with radius #setting("transfer.radius"), degrees '
         '#setting("transfer.degrees"), time #printed("transfer/a") or #computed("transfer/a").'
     )
+    # Title page and packages.
+    for name in ("CITATION.cff", "requirements.lock"):
+        shutil.copy(PROJECT / name, folder)
     published = folder / "data/published"
     (published / "transfer").mkdir(parents=True)
     own = published / "transfer"
@@ -215,6 +219,22 @@ def test_both_formats_are_byte_identical_when_built_again(project, reproduction)
         before = report.read_bytes()
         compile_report(reproduction / "content.json", project, report)
         assert report.read_bytes() == before
+
+
+def test_the_pdf_is_tagged_titled_and_kept(reproduction):
+    """As it says itself: PDF/UA, whose rules the compiler checks, and PDF/A."""
+    said = (reproduction / "report.pdf").read_bytes()
+    for mark in (
+        b"/MarkInfo<</Marked true",
+        b"<pdfuaid:part>1<",
+        b"<pdfaid:part>2<",
+        b"/Lang(en-GB)",
+        b"/DisplayDocTitle true",
+        b"/Alt(A line that rises.)",
+        b"/Alt(Other solvers. The same problem",
+        b"/Alt(r dot = v)",
+    ):
+        assert mark in said, mark
 
 
 def test_a_what_if_run_says_so_and_what_it_changes(project, reproduction):

@@ -66,6 +66,8 @@ def _typeset(
             sys_inputs=inputs,
             # The same fonts, and so the same bytes, on every machine.
             ignore_system_fonts=True,
+            # Tagged, so that it can be read aloud, and kept for long.
+            pdf_standards=["ua-1", "a-2a"] if kind == "pdf" else [],
         )
     except typst.TypstError as error:
         raise InputError(f"{content}: not typeset: {error.message}{_place(error)}") from None
