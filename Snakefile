@@ -8,13 +8,14 @@
 import os
 import re
 import sys
+from functools import cache
 from pathlib import Path
 
 from smallsat.catalogue import read_catalogue
 from smallsat.config import as_json
 from smallsat.errors import InputError
 from smallsat.evidence.ledger import read_published
-from smallsat.step import Shard
+from smallsat.shard import Shard
 from smallsat.strict_yaml import read_yaml
 from smallsat.workflow.figures import drawn, read_runs
 from smallsat.workflow.isolation import isolate
@@ -42,7 +43,13 @@ try:
     ARTEFACTS = {study.name: read_published(PUBLISHED, study)[1] for study in catalogue}
     FIGURES = {study: read_runs(ROOT / "notebooks" / study) for study in STUDIES}
     # Without the figures of cases that a what-if run leaves out.
-    RUNS = {study: [drawn(run, CONFIG[study]) for run in FIGURES[study]] for study in STUDIES}
+    RUNS = {
+        study: [
+            run if CONFIG[study] == DEFAULT[study] else drawn(run, CONFIG[study])
+            for run in FIGURES[study]
+        ]
+        for study in STUDIES
+    }
 except InputError as error:
     sys.exit(f"smallsat: {error}")
 

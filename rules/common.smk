@@ -16,6 +16,7 @@ def results(study, *names):
     return [f"data/results/{study}/{name}" for name in names]
 
 
+@cache
 def sources(command, *modules):
     """Source files that a command runs, so that editing any of them reruns the rule."""
     return [os.path.relpath(path) for path in source_files(command, *modules)]

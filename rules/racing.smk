@@ -1,5 +1,5 @@
 # Racing: CubeSats through rings, as its listings have it and as it should have been run.
-from smallsat.studies.racing.parameters import SCENARIOS, course_files
+from smallsat.studies.racing.configuration import SCENARIOS, course_files
 
 RACING_PARTS = ["races.csv", "rings.csv", "segments.csv", "trajectories.parquet"]
 RANDOM_SHARDS = Shard.all(2)

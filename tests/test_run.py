@@ -8,6 +8,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from smallsat.catalogue import study_module
 from smallsat.config import as_json, default_config, overlaid_config
 from smallsat.errors import InputError
 from smallsat.workflow.run import check, read_run
@@ -15,6 +16,13 @@ from smallsat.workflow.run import check, read_run
 ROOT = Path(__file__).parents[1]
 DEFAULT = default_config(ROOT)
 PLAIN = DEFAULT.model_dump()
+
+
+def test_the_documents_own_values_pass_the_checks_of_every_study():
+    """A call of Snakemake checks the sections that a person changes; these are checked here."""
+    for study, section in DEFAULT:
+        if study != "run":
+            study_module(study, "parameters").check(section)
 
 
 def refusal(*, files=(), entries=()) -> str:
@@ -238,7 +246,7 @@ def test_whatever_a_file_says_is_taken_as_it_stands_or_refused(tmp_path, path, u
     file.write_bytes(("\n".join(lines) + f" {fragment}\n").encode("utf-8", "surrogatepass"))
     try:
         config = overlaid_config(DEFAULT, [file], [])
-        check(config)
+        check(config, DEFAULT)
     except InputError as error:
         assert len(str(error).splitlines()) == 1, str(error)
         return
@@ -274,6 +282,6 @@ def within(said, value) -> bool:
 def test_whatever_stands_after_config_is_taken_or_refused(entry):
     """The same for a setting on the command line."""
     try:
-        check(overlaid_config(DEFAULT, [], [entry]))
+        check(overlaid_config(DEFAULT, [], [entry]), DEFAULT)
     except InputError as error:
         assert len(str(error).splitlines()) == 1, str(error)

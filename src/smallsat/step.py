@@ -5,55 +5,19 @@ A step is a module of ``smallsat.studies.<study>.steps`` with one function, ``ru
 a rule's sources are what its step imports and no more.
 """
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Generic, TypeVar
 
-import numpy as np
 import pandas as pd
 
-from smallsat.errors import InputError
 from smallsat.quantities import Part
+from smallsat.shard import WHOLE, Shard
 
 # A step that takes a part of a section can be given the whole of it.
 Section = TypeVar("Section", bound=Part, covariant=True)
 Tables = Mapping[str, pd.DataFrame]
-
-
-@dataclass(frozen=True)
-class Shard:
-    """One of several equal shares of the units of a step, numbered from 1."""
-
-    number: int
-    count: int
-
-    @classmethod
-    def parse(cls, text: str) -> "Shard":
-        """Read ``2-of-4``.
-
-        Raises
-        ------
-        InputError
-            If the text is no such share.
-        """
-        found = re.fullmatch(r"([1-9]\d*)-of-([1-9]\d*)", text)
-        if not found or int(found[1]) > int(found[2]):
-            raise InputError(f"shard {text!r}: not allowed; from 1-of-N to N-of-N")
-        return cls(int(found[1]), int(found[2]))
-
-    @classmethod
-    def all(cls, count: int) -> "list[Shard]":
-        """Every shard of so many."""
-        return [cls(number, count) for number in range(1, count + 1)]
-
-    def __str__(self) -> str:
-        return f"{self.number}-of-{self.count}"
-
-    def units(self, total: int) -> np.ndarray:
-        """Numbers of its units, from 0: every so-manieth, so that shards take equally long."""
-        return np.arange(self.number - 1, total, self.count)
 
 
 @dataclass(frozen=True)
@@ -82,4 +46,4 @@ class Step(Generic[Section]):
     published: Path
     accepted: Path = Path()
     part: str = ""
-    shard: Shard = Shard(1, 1)
+    shard: Shard = WHOLE

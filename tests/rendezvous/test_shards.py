@@ -6,7 +6,7 @@ import synthetic
 
 from smallsat.errors import InputError
 from smallsat.results import write_table
-from smallsat.step import Shard
+from smallsat.shard import Shard
 from smallsat.studies.rendezvous.monte_carlo.shards import merge
 
 COUNT = 17

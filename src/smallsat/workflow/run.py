@@ -42,12 +42,15 @@ def read_run(project: Path, files: Iterable[Path], entries: Iterable[str]) -> Ru
     """
     default = default_config(project)
     config = overlaid_config(default, files, entries)
-    check(config)
+    check(config, default)
     return Run(config, default, run_folder(config, default))
 
 
-def check(config: Config) -> None:
+def check(config: Config, default: Config) -> None:
     """Refuse what no type can, by the checks of each study that has a module ``parameters``.
+
+    A section that is as the documents have it is passed over: the tests check those, and a call of
+    Snakemake loads the models of the studies that a person changes alone.
 
     Raises
     ------
@@ -55,5 +58,5 @@ def check(config: Config) -> None:
         Naming the first key that does not do, its value and what is allowed.
     """
     for study, section in config:
-        if module := study_module(study, "parameters"):
+        if section != default[study] and (module := study_module(study, "parameters")):
             module.check(section)

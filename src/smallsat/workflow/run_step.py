@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
 from smallsat.results import write_table
-from smallsat.step import Shard, Step, Tables
+from smallsat.shard import Shard
+from smallsat.step import Step, Tables
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

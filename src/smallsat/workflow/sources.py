@@ -37,6 +37,7 @@ def source_files(*modules: str) -> list[str]:
     return sorted(str(_file(module)) for module in closure)
 
 
+@cache
 def notebook_modules(notebook: Path) -> list[str]:
     """Modules of `smallsat` that the cells of a notebook import, sorted."""
     cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]

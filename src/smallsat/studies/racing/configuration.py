@@ -96,6 +96,9 @@ class Scenarios(Part):
     scenario_2: Scenario = Field(alias="scenario-2")
 
 
+SCENARIOS = tuple(str(field.alias) for field in Scenarios.model_fields.values())
+
+
 class Listing(Part):
     """Listings C.B to C.F; the tolerance is that of the flights, others are flown as variants."""
 
@@ -162,3 +165,8 @@ class Configuration(Part):
     thrust_sweep_m_s2: Annotated[Several[Positive], Len(2)]
     specific_impulses_s: SpecificImpulses
     animation: Animation
+
+
+def course_files(section: Configuration) -> list[str]:
+    """Course files that the parameters are read from."""
+    return sorted({race.course_file for _, race in section.scenarios} - {""})

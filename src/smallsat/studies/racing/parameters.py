@@ -7,13 +7,16 @@ import numpy as np
 
 from smallsat.dynamics.units import MINUTE
 from smallsat.errors import InputError
-from smallsat.studies.racing.configuration import Configuration, CourseRanges, Scenario
+from smallsat.studies.racing.configuration import (
+    SCENARIOS,
+    Configuration,
+    CourseRanges,
+    Scenario,
+)
 from smallsat.studies.racing.model.course import COINCIDENT, Course, Ranges, check_course, generate
 from smallsat.studies.racing.model.course_file import read_course_file
 from smallsat.studies.racing.model.cubesat import CubeSat, cubesat
 from smallsat.studies.racing.model.matlab_random import MatlabStream
-
-SCENARIOS = ("scenario-1", "scenario-2")
 
 
 @dataclass(frozen=True)
@@ -170,11 +173,6 @@ def _race(section: Configuration, name: str, ranges: Ranges) -> Race:
             for craft, values in scenario.cubesats
         ),
     )
-
-
-def course_files(section: Configuration) -> list[str]:
-    """Course files that the parameters are read from."""
-    return sorted({race.course_file for _, race in section.scenarios} - {""})
 
 
 def check(section: Configuration) -> None:

@@ -9,7 +9,7 @@ from scipy.stats import chi2
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
 from smallsat.evidence.errata import Proof
 from smallsat.evidence.grounds import Grounds
-from smallsat.studies.racing.configuration import Configuration
+from smallsat.studies.racing.configuration import SCENARIOS, Configuration
 from smallsat.studies.racing.methods import listing
 from smallsat.studies.racing.methods.flight import propagate_segment
 from smallsat.studies.racing.methods.listing_races import targets
@@ -22,7 +22,7 @@ from smallsat.studies.racing.model.shooting import (
     costate_matrix,
     thrust_components,
 )
-from smallsat.studies.racing.parameters import SCENARIOS, Parameters
+from smallsat.studies.racing.parameters import Parameters
 
 # Places of one CubeSat at the start of each race.
 PLACES = {

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from smallsat.drawing.interactive import Scene, Track, line
-from smallsat.studies.racing.configuration import Configuration
+from smallsat.studies.racing.configuration import SCENARIOS, Configuration
 from smallsat.studies.racing.figures.drawing import (
     COLOURS,
     ENLARGED,
@@ -16,7 +16,6 @@ from smallsat.studies.racing.figures.drawing import (
     read_paths,
     ring_curve,
 )
-from smallsat.studies.racing.parameters import SCENARIOS
 
 FALLBACKS = dict(zip(SCENARIOS, ("fig-02", "fig-08"), strict=True))
 

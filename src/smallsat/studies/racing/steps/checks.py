@@ -4,9 +4,9 @@ import pandas as pd
 
 from smallsat.evidence.not_converged import not_converged_table
 from smallsat.step import Step, Tables
-from smallsat.studies.racing.configuration import Configuration
+from smallsat.studies.racing.configuration import SCENARIOS, Configuration
 from smallsat.studies.racing.methods import checks
-from smallsat.studies.racing.parameters import SCENARIOS, Parameters
+from smallsat.studies.racing.parameters import Parameters
 
 
 def run(step: Step[Configuration]) -> Tables:

@@ -1,10 +1,10 @@
 """The courses, and the start positions from their seeds."""
 
 from smallsat.step import Step, Tables
-from smallsat.studies.racing.configuration import Configuration
+from smallsat.studies.racing.configuration import SCENARIOS, Configuration
 from smallsat.studies.racing.methods.recovery import recovered, search_days
 from smallsat.studies.racing.model.course import course_table
-from smallsat.studies.racing.parameters import SCENARIOS, Parameters
+from smallsat.studies.racing.parameters import Parameters
 
 # Years whose days are tried as seeds of the shuffled race: the listing is of 2025.
 YEARS = (2021, 2026)

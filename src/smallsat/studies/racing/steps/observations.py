@@ -7,9 +7,8 @@ from smallsat.evidence.not_converged import joined
 from smallsat.evidence.observation import observations_table
 from smallsat.results import read_table
 from smallsat.step import Step, Tables
-from smallsat.studies.racing.configuration import Configuration
+from smallsat.studies.racing.configuration import SCENARIOS, Configuration
 from smallsat.studies.racing.evidence.observations import observations, timings
-from smallsat.studies.racing.parameters import SCENARIOS
 
 KINDS = ("listing", "optima")
 

@@ -2,9 +2,9 @@
 
 from smallsat.evidence.not_converged import not_converged_table
 from smallsat.step import Step, Tables
-from smallsat.studies.racing.configuration import Configuration
+from smallsat.studies.racing.configuration import SCENARIOS, Configuration
 from smallsat.studies.racing.methods.random_courses import solve_random
-from smallsat.studies.racing.parameters import SCENARIOS, Parameters
+from smallsat.studies.racing.parameters import Parameters
 
 
 def run(step: Step[Configuration]) -> Tables:
@@ -12,7 +12,7 @@ def run(step: Step[Configuration]) -> Tables:
     parameters = Parameters.from_section(step.section)
     rings = parameters.races[SCENARIOS[1]].course.rings
     courses = step.shard.units(step.section.random_courses.courses)
-    found, seconds, missing = solve_random(parameters, step.section, courses.tolist(), rings)
+    found, seconds, missing = solve_random(parameters, step.section, courses, rings)
     stem = f"random-courses-{step.shard}"
     return {
         f"{stem}.csv": found,

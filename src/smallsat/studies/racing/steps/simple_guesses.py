@@ -1,9 +1,9 @@
 """The indirect method from guesses that need no solve."""
 
 from smallsat.step import Step, Tables
-from smallsat.studies.racing.configuration import Configuration
+from smallsat.studies.racing.configuration import SCENARIOS, Configuration
 from smallsat.studies.racing.methods.simple_guesses import simple_guesses
-from smallsat.studies.racing.parameters import SCENARIOS, Parameters
+from smallsat.studies.racing.parameters import Parameters
 
 # The CubeSat whose listing is varied, too.
 GUESSED = "Meeny"

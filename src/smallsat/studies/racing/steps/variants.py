@@ -1,9 +1,9 @@
 """Our solve of the listing with one thing changed."""
 
 from smallsat.step import Step, Tables
-from smallsat.studies.racing.configuration import Configuration
+from smallsat.studies.racing.configuration import SCENARIOS, Configuration
 from smallsat.studies.racing.methods.listing_races import variants
-from smallsat.studies.racing.parameters import SCENARIOS, Parameters
+from smallsat.studies.racing.parameters import Parameters
 
 # The CubeSat whose variants are flown: all are alike in this.
 VARIED = ("Meeny",)

@@ -1,6 +1,7 @@
 """The shards of a group of manoeuvres in one table; the part is the group."""
 
-from smallsat.step import Shard, Step, Tables
+from smallsat.shard import Shard
+from smallsat.step import Step, Tables
 from smallsat.studies.rendezvous.configuration import MonteCarlo
 from smallsat.studies.rendezvous.monte_carlo.shards import merge
 from smallsat.studies.rendezvous.monte_carlo.tables import KEY, PASSAGES, PASSAGES_KEY, SCHEMA

@@ -18,7 +18,7 @@ def run(step: Step[MonteCarlo]) -> Tables:
     """Simulate a shard of a group."""
     flown = cases(step.section, step.part)
     tables = [starts(case, lambda name: read_table(step.results / name)) for case in flown]
-    own = [table.iloc[step.shard.units(len(table))] for table in tables]
+    own = [table.iloc[list(step.shard.units(len(table)))] for table in tables]
     if step.part == "passages":
         table = simulate_passages(step.section, flown[0], own[0])
     else:

@@ -1,11 +1,11 @@
-"""Steps: shards are a partition, and a wrong one is refused in one line."""
+"""Shards of a step are a partition, and a wrong one is refused in one line."""
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from smallsat.errors import InputError
-from smallsat.step import Shard
+from smallsat.shard import Shard
 
 
 @given(total=st.integers(0, 60), count=st.integers(1, 12))
