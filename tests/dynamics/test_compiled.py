@@ -1,6 +1,7 @@
 """The compiled functions' cache: never stale, and never in the way."""
 
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -75,6 +76,14 @@ def cache_files(folder, suffix):
     files = list((folder / "smallsat/__pycache__").rglob(f"*.{suffix}"))
     assert files
     return files
+
+
+def test_a_copied_package_brings_its_functions_along(package, tmp_path_factory):
+    """What is compiled does not depend on where the package lies."""
+    elsewhere = tmp_path_factory.mktemp("elsewhere")
+    shutil.copytree(package, elsewhere, dirs_exist_ok=True)
+    shutil.rmtree(package / "smallsat")
+    assert call(elsewhere) == "2.0 1"
 
 
 def test_a_damaged_file_is_compiled_anew(package):

@@ -96,7 +96,10 @@ def make_environment(folder: Path) -> None:
 def make_project(root: Path, tmp_path_factory) -> Callable[[], Project]:
     """Function that copies what belongs to the project into a fresh folder."""
     lines = (root / ".gitignore").read_text().split()
-    anywhere = [line.rstrip("/") for line in lines if not line.startswith("/")]
+    # What Python and Numba have compiled comes along: no copy does it anew.
+    anywhere = [
+        line.rstrip("/") for line in lines if not line.startswith("/") and line != "__pycache__/"
+    ]
     at_the_top = {line.strip("/") for line in lines if line.startswith("/")}
 
     def unwanted(folder: str, names: list[str]) -> set[str]:

@@ -3,7 +3,8 @@
 Numba keeps a compiled function as long as its own file is unchanged, even when a function that it
 calls or a constant that it uses, in another file, has changed. The cache therefore lives in a
 folder that is named after the content of every file with compiled functions and of all that they
-import. What is damaged, half written or not writable is passed over: the function is compiled anew.
+import, and in it after the package's own folders, so that a copied package brings it along. What is
+damaged, half written or not writable is passed over: the function is compiled anew.
 """
 
 import contextlib
@@ -16,7 +17,11 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import numba
-from numba.core.caching import FunctionCache
+from numba.core.caching import (
+    CompileResultCacheImpl,
+    FunctionCache,
+    UserProvidedCacheLocator,
+)
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -73,8 +78,26 @@ def _imports(package: Path, content: bytes) -> set[Path]:
     return found
 
 
+class _Locator(UserProvidedCacheLocator):
+    """Numba's folder of a file, named after its place in the package in place of the whole path."""
+
+    @classmethod
+    def get_suitable_cache_subpath(cls, py_file: str) -> str:
+        """The folder, such as ``smallsat.dynamics.orbits``."""
+        folder = Path(py_file).absolute().parent
+        if not folder.is_relative_to(_PACKAGE):
+            return super().get_suitable_cache_subpath(py_file)
+        return ".".join(folder.relative_to(_PACKAGE.parent).parts)
+
+
+class _Implementation(CompileResultCacheImpl):
+    _locator_classes = [_Locator]  # noqa: RUF012
+
+
 class _PassableCache(FunctionCache):
     """Numba's cache, except that no state of its files stops a run."""
+
+    _impl_class = _Implementation
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The compiled function, or None to have it compiled."""
