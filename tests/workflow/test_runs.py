@@ -8,8 +8,8 @@ import time
 
 import pytest
 
-# Two of the document's cases: enough to exercise shards, and quick to solve.
-SMALL = 'transfer={"degrees": [2, 3], "intervals": [2, 4]}'
+# Two of the document's cases, one long flight: enough to exercise shards, and quick to solve.
+SMALL = 'transfer={"degrees": [2, 3], "intervals": [2, 4], "numerics": {"thrust_shares": [0.5]}}'
 
 
 def test_dry_run_of_everything_is_tens_of_jobs(project):
