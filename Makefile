@@ -110,4 +110,5 @@ lock:
 	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.lab.in -c requirements.lock -o requirements.lab.lock
 
 clean:
-	rm -rf data/results figures report/build runs logs .snakemake .cache
+	rm -rf report/build runs logs .snakemake .cache
+	find data/results figures -mindepth 1 ! -name README.md -delete

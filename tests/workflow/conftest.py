@@ -96,11 +96,12 @@ def make_environment(folder: Path) -> None:
 def make_project(root: Path, tmp_path_factory) -> Callable[[], Project]:
     """Function that copies what belongs to the project into a fresh folder."""
     lines = (root / ".gitignore").read_text().split()
+    kept = {line.removeprefix("!/") for line in lines if line.startswith("!")}
     # What Python and Numba have compiled comes along: no copy does it anew.
     anywhere = [
-        line.rstrip("/") for line in lines if not line.startswith("/") and line != "__pycache__/"
+        line.rstrip("/") for line in lines if not line.startswith(("/", "!")) and line != "__pycache__/"
     ]
-    at_the_top = {line.strip("/") for line in lines if line.startswith("/")}
+    at_the_top = [line.strip("/") for line in lines if line.startswith("/")]
 
     def unwanted(folder: str, names: list[str]) -> set[str]:
         place = Path(folder).relative_to(root)
@@ -108,7 +109,10 @@ def make_project(root: Path, tmp_path_factory) -> Callable[[], Project]:
             name
             for name in names
             if name == ".git"
-            or str(place / name) in at_the_top
+            or (
+                any(fnmatch.fnmatch(str(place / name), rule) for rule in at_the_top)
+                and str(place / name) not in kept
+            )
             or any(fnmatch.fnmatch(name, rule) for rule in anywhere)
         }
 

@@ -1,4 +1,4 @@
-"""Every command of the README runs as it stands there, in its order, in a fresh copy."""
+"""Every command of the README and of docs/use.md runs as it stands there, in a fresh copy."""
 
 import re
 
@@ -18,10 +18,11 @@ IN_FULL = (
 
 @pytest.fixture(scope="module")
 def commands(root):
-    """Lines of the README's shell blocks, without their remarks."""
-    blocks = re.findall(r"^```sh\n(.*?)^```", (root / "README.md").read_text(), re.M | re.S)
+    """Lines of their shell blocks in order, each once, without their remarks."""
+    text = "".join((root / name).read_text() for name in ("README.md", "docs/use.md"))
+    blocks = re.findall(r"^```sh\n(.*?)^```", text, re.M | re.S)
     lines = [line.split(" # ")[0].strip() for block in blocks for line in block.splitlines()]
-    return [line for line in lines if line]
+    return list(dict.fromkeys(line for line in lines if line))
 
 
 def planned(command: str) -> str:
@@ -32,7 +33,7 @@ def planned(command: str) -> str:
     return f"{command} -n"
 
 
-def test_every_command_of_the_readme(commands, make_project):
+def test_every_command_that_is_shown(commands, make_project):
     """No failure and no traceback; a what-if fills a folder of its own and no other."""
     project = make_project()
     assert set(IN_FULL) <= set(commands)
@@ -44,7 +45,7 @@ def test_every_command_of_the_readme(commands, make_project):
         assert not re.search("unknown|No rule", output), f"{command}\n{output}"
     # The dry run of the other what-if leaves an empty folder.
     assert len(list((project.folder / "runs").glob(f"*/{FIGURE}"))) == 1
-    assert not (project.folder / "figures").exists()
+    assert [path.name for path in (project.folder / "figures").iterdir()] == ["README.md"]
 
 
 def test_targets_are_understood_on_either_side(project):
