@@ -9,7 +9,7 @@ export PIP_USER := 0
 PIP := $(VENV)/bin/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := all
-.PHONY: all test test-site explain compare accept what-ifs lint animations flight benchmark benchmark-baseline lock clean accept-seconds lab dag
+.PHONY: all test test-site explain compare accept what-ifs lint animations flight benchmark benchmark-baseline lock clean lab dag
 
 all: $(VENV)/installed
 	@snakemake all
@@ -55,6 +55,7 @@ accept: $(VENV)/installed
 	@snakemake verdicts
 	@snakemake verdicts --configfile config/tests.yaml
 	@python -m smallsat accept --reason "$$REASON"
+	@python -m smallsat seconds logs --output data/accepted/seconds.csv
 # The notebooks in JupyterLab, which the first call installs; what they draw goes into runs/lab.
 # LAB has options of JupyterLab, such as --no-browser.
 lab: $(VENV)/lab
@@ -90,10 +91,6 @@ flight: $(VENV)/installed
 	@snakemake rendezvous_flight_measurement
 	@mkdir -p data/accepted/rendezvous/flight
 	@cp data/results/rendezvous/flight/measured/*.csv data/accepted/rendezvous/flight/
-
-# What the jobs of the last build took is what a fresh checkout expects of its own.
-accept-seconds: $(VENV)/installed
-	@python -m smallsat seconds logs --output data/accepted/seconds.csv
 
 benchmark: $(VENV)/installed
 	python benchmarks/run.py

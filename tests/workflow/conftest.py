@@ -98,9 +98,8 @@ def make_project(root: Path, tmp_path_factory) -> Callable[[], Project]:
     lines = (root / ".gitignore").read_text().split()
     kept = {line.removeprefix("!/") for line in lines if line.startswith("!")}
     # What Python and Numba have compiled comes along: no copy does it anew.
-    anywhere = [
-        line.rstrip("/") for line in lines if not line.startswith(("/", "!")) and line != "__pycache__/"
-    ]
+    unmarked = [line for line in lines if not line.startswith(("/", "!"))]
+    anywhere = [line.rstrip("/") for line in unmarked if line != "__pycache__/"]
     at_the_top = [line.strip("/") for line in lines if line.startswith("/")]
 
     def unwanted(folder: str, names: list[str]) -> set[str]:
