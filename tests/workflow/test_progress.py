@@ -74,7 +74,7 @@ def test_a_failed_job_shows_the_end_of_its_log_and_how_to_retry_it(build):
     title, place, *shown, retry = build.progress.lines(failed)
     assert title == "[0/3] FAILED mars: mars_a_1"
     assert "logs/mars/a-1.log" in place
-    assert shown == [f"    | line {n}" for n in range(40 - LOG_LINES, 40)]
+    assert shown == [f"line {n}" for n in range(40 - LOG_LINES, 40)]
     assert retry == "    retry: snakemake mars_a_1 --config run=x"
     build.progress.lines(begin(2, "mars_b", 0.0))
     assert build.progress.lines(event(LogEvent.JOB_FINISHED, 300.0, job_id=2))[0].endswith(

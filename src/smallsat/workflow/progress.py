@@ -150,7 +150,7 @@ class Progress:
             lines = Path(log).read_text(errors="replace").splitlines() if Path(log).exists() else []
             if lines:
                 yield f"    {os.path.relpath(log, self.start)}, its last lines:"
-            yield from (f"    | {line}" for line in lines[-LOG_LINES:])
+            yield from lines[-LOG_LINES:]
         yield f"    retry: {shlex.join(['snakemake', record.rule_name, *settings_of(self.words)])}"
 
     def _failed_command(self, record: Any) -> Iterator[str] | None:
