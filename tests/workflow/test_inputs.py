@@ -45,12 +45,12 @@ def projected(root, run, names):
 
 
 def figures(root):
-    """One figure of each notebook; films are left out."""
+    """One figure of each notebook, of its shortest run; films are left out."""
     for study in read_catalogue(root / "data/published"):
-        first = {run.notebook: run for run in reversed(read_runs(root / "notebooks" / study.name))}
-        for run in first.values():
-            if run.figures:
-                yield f"{run.stems[0]}.svg"
+        runs = [run for run in read_runs(root / "notebooks" / study.name) if run.figures]
+        longest_first = sorted(runs, key=lambda run: len(run.figures), reverse=True)
+        for run in {run.notebook: run for run in longest_first}.values():
+            yield f"{run.stems[0]}.svg"
 
 
 @pytest.fixture(scope="module")
