@@ -31,6 +31,13 @@ step(
     clock=["collocation-seconds.csv"],
 )
 
+for further, made in {
+    "convergence": ["convergence.csv"],
+    "basin": ["basin.csv"],
+    "coasting": ["coasting.csv", "coasting.parquet"],
+}.items():
+    step("transfer", further, makes=made)
+
 # As the document did it, one part for each number of intervals.
 for intervals, name in zip(INTERVALS, TRANSFER_SHARDS, strict=True):
     step(

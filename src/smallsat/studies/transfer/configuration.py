@@ -69,7 +69,10 @@ class Stop(Part):
 
 
 class Numerics(Part):
-    """The tolerance of the as-published runs is SLSQP's ftol, ``multistart`` is starts a degree."""
+    """The tolerance of the as-published runs is SLSQP's ftol, ``multistart`` is starts a degree.
+
+    ``basin`` is starts a method and distance from the optimum.
+    """
 
     steps: Steps
     stop: Stop
@@ -77,6 +80,7 @@ class Numerics(Part):
     tighter_bounds: Several[Positive]
     thrust_shares: Several[Positive]
     multistart: Annotated[Integer, Interval(ge=1, le=10000)]
+    basin: Annotated[Integer, Interval(ge=1, le=10000)]
     seed: Seed
 
 

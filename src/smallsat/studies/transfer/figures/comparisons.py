@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
-from smallsat.drawing.style import BLACK, BLUE, CYCLE, GREEN, ORANGE, SKY, VERMILION, WIDTH
+from smallsat.drawing.style import BLACK, BLUE, CYCLE, GREEN, GREY, ORANGE, SKY, VERMILION, WIDTH
 from smallsat.studies.transfer.figures.missing import NOT_CONVERGED, mark_missing
 from smallsat.studies.transfer.methods.bounds import relative_length
 
@@ -17,6 +17,8 @@ from smallsat.studies.transfer.methods.bounds import relative_length
 # methods can be told apart, and the cases that lie lower are seen in the gap beside it.
 LAST_TAU = 0.99
 MASS_ROOM = 0.0003
+# Room between two panels, so that the label of an axis is not read as the other's.
+GUTTER = 0.06
 
 
 @dataclass(frozen=True)
@@ -100,11 +102,14 @@ def cost_against_indirect(cost: pd.DataFrame, indirect: pd.DataFrame) -> Figure:
             label="indirect (right: by evaluations)",
         )
         axes.set_yscale("log")
+        axes.set_xscale("log", base=2)
         axes.set_xlabel("intervals K")
         axes.set_ylabel(label)
-        axes.set_xticks(sorted(cost["intervals"].unique()))
+        counts = sorted(cost["intervals"].unique())
+        axes.set_xticks(counts, [str(count) for count in counts])
+    figure.get_layout_engine().set(wspace=GUTTER)
     handles, labels = pair[1].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=3, fontsize=7)
+    figure.legend(handles, labels, loc="outside upper center", ncols=3)
     return figure
 
 
@@ -182,33 +187,43 @@ def mass_above_printed(flown: pd.DataFrame, finals: pd.DataFrame) -> Figure:
     if finals["optimum"].isna().all():
         mark_missing(axes)
     above = finals["printed"] > finals["optimum"]
-    for place in position[above]:
+    if above.any():
+        axes.plot(
+            position[above],
+            np.full(above.sum(), 0.97),
+            "^",
+            ms=5,
+            mfc="none",
+            color=VERMILION,
+            transform=axes.get_xaxis_transform(),
+            label="printed, above the optimum",
+        )
+    axes.set_yscale("log")
+    axes.set_ylabel("optimum minus final mass")
+    axes.set_xticks(position, finals["intervals"].astype(str), fontsize=7)
+    # A second row of labels: the degree, under the numbers of intervals that share it.
+    for degree, places in finals.reset_index().groupby("degree").groups.items():
         axes.annotate(
-            "printed above optimum",
-            (place, 0.98),
+            f"N = {degree}",
+            (float(np.mean(places)), -0.14),
             xycoords=axes.get_xaxis_transform(),
             ha="center",
             va="top",
-            fontsize=6,
-            rotation=90,
-            color=VERMILION,
+            fontsize=8,
+            annotation_clip=False,
         )
-    axes.set_yscale("log")
-    axes.set_ylabel("indirect optimum minus final mass")
-    axes.set_xticks(
-        position,
-        [f"{n}, {k}" for n, k in zip(finals["degree"], finals["intervals"], strict=True)],
-        rotation=90,
-        fontsize=7,
-    )
-    axes.set_xlabel("N, K")
+        axes.axvline(places[0] - 0.5, color=GREY, lw=0.6)
+    axes.grid(False, axis="x")
+    axes.set_xlim(-0.5, len(finals) - 0.5)
+    axes.set_xlabel("intervals K, by degree", labelpad=16)
+    figure.get_layout_engine().set(wspace=GUTTER)
     handles, _ = axes.get_legend_handles_labels()
     handles += [
         Line2D([], [], color=style.colour, lw=style.width, ls=style.line, label=group)
         for group, style in GROUPS.items()
         if group in set(flown["group"])
     ]
-    figure.legend(handles=handles, loc="outside upper center", ncols=3, fontsize=7)
+    figure.legend(handles=handles, loc="outside upper center", ncols=3)
     return figure
 
 

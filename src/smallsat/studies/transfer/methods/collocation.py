@@ -20,7 +20,7 @@ from smallsat.optimal_control.collocation import (
     collocation_guess,
     collocation_program,
 )
-from smallsat.optimal_control.nonlinear_program import IpoptSolver, Solution
+from smallsat.optimal_control.nonlinear_program import IpoptSolver, NonlinearProgram, Solution
 from smallsat.studies.transfer.configuration import Configuration
 from smallsat.studies.transfer.methods.bounds import relative_length, time_bounds
 from smallsat.studies.transfer.methods.experiments import NO_EXTREMAL, extremal_table
@@ -101,7 +101,7 @@ def collocation(section: Configuration) -> tuple[pd.DataFrame, list[NotConverged
 def direct_collocation(
     problem: TransferProblem, extremal: pd.DataFrame, mesh: Collocation, *, rough: bool
 ) -> tuple[Solution, ControlHistory]:
-    """Direct collocation on a mesh, in canonical units.
+    """Direct collocation on a mesh and its control, in canonical units.
 
     Parameters
     ----------
@@ -113,13 +113,6 @@ def direct_collocation(
         Guess a straight line of states and a thrust angle that turns once, instead of the extremal.
     """
     final_time = float(extremal["t"].iloc[-1])
-
-    def rate(x: Any, u: Any) -> list[Any]:
-        return problem.state_rate(x, ca.sin(u), ca.cos(u))
-
-    program = collocation_program(
-        rate, problem.initial_state, problem.terminal_error, mesh, time_bounds(final_time)
-    )
     if rough:
         duration = GUESS_TIME * relative_length(final_time)
         guess = collocation_guess(
@@ -129,16 +122,41 @@ def direct_collocation(
             lambda t: 2 * np.pi * t / duration,
         )
     else:
-        angle = np.unwrap(extremal["beta"])
-        guess = collocation_guess(
-            mesh,
-            final_time,
-            lambda t: np.array([np.interp(t, extremal["t"], extremal[name]) for name in STATES]),
-            lambda t: float(np.interp(t, extremal["t"], angle)),
-        )
+        guess = extremal_guess(extremal, mesh)
+    program = transcription(problem, mesh, time_bounds(final_time))
     solution = IpoptSolver(program).solve(guess)
     controls = collocation_control(mesh, len(STATES), solution.variables)
     return solution, _collocated_history(mesh, controls, solution.objective)
+
+
+def transcription(
+    problem: TransferProblem, mesh: Collocation, bounds: tuple[float, float]
+) -> NonlinearProgram:
+    """The nonlinear program of direct collocation on a mesh.
+
+    Parameters
+    ----------
+    problem, mesh
+        What is solved, in canonical units.
+    bounds
+        Of the final time.
+    """
+
+    def rate(x: Any, u: Any) -> list[Any]:
+        return problem.state_rate(x, ca.sin(u), ca.cos(u))
+
+    return collocation_program(rate, problem.initial_state, problem.terminal_error, mesh, bounds)
+
+
+def extremal_guess(extremal: pd.DataFrame, mesh: Collocation) -> np.ndarray:
+    """An extremal, a table of `propagate_extremal`, as the variables of a `transcription`."""
+    angle = np.unwrap(extremal["beta"])
+    return collocation_guess(
+        mesh,
+        float(extremal["t"].iloc[-1]),
+        lambda t: np.array([np.interp(t, extremal["t"], extremal[name]) for name in STATES]),
+        lambda t: float(np.interp(t, extremal["t"], angle)),
+    )
 
 
 def indirect_collocation(
