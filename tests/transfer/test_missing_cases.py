@@ -12,8 +12,12 @@ from smallsat.evidence.claims import judge_claims
 from smallsat.evidence.errata import prove_errata
 from smallsat.step import Step
 from smallsat.strict_yaml import read_yaml
+from smallsat.studies.transfer.figures.basin import basin_figure
 from smallsat.studies.transfer.figures.cases import control_figure, states_figure
+from smallsat.studies.transfer.figures.coasting import coasting_figure
+from smallsat.studies.transfer.figures.convergence import convergence_figure
 from smallsat.studies.transfer.methods import experiments, extremals, long_flights
+from smallsat.studies.transfer.methods.basin import shares
 from smallsat.studies.transfer.methods.continuation import ContinuationError
 from smallsat.studies.transfer.methods.indirect import ConvergenceError
 from smallsat.studies.transfer.model.problem import TransferProblem
@@ -23,6 +27,9 @@ from smallsat.workflow.run_step import run_step
 
 # Claims that rest on the equations and on flights of the document's own set-up, which stay.
 WITHOUT_OURS = {"transfer/claim/newton-lagrange", "transfer/claim/objectives-agree"}
+
+# Steps that have nothing to say of a transfer without an extremal.
+BEYOND = ("convergence", "basin", "coasting")
 
 
 @pytest.fixture(scope="module")
@@ -52,7 +59,7 @@ def results(section, root, tmp_path_factory, grounds):
         patch.setattr(long_flights, "minimum_time", no_continuation)
         for part, name in product(("1", "2"), ("as_published", "long_flights")):
             run_step("transfer", name, replace(step, part=part))
-        for name in ("multistart", "collocation", "gather", "observations"):
+        for name in ("multistart", "collocation", *BEYOND, "gather", "observations"):
             run_step("transfer", name, step)
         given = grounds("transfer", section, folder)
         claims = judge_claims(read_yaml(published / "claims.yaml"), given, "claims.yaml")
@@ -93,6 +100,19 @@ def test_proofs_on_missing_cases_are_not_computed(results, key):
     table = pd.read_csv(results / "errata.csv").set_index("key")
     assert table.loc[key, "statement"].startswith("not computed")
     assert not table.loc[key, "holds"]
+
+
+def test_what_goes_beyond_is_drawn_as_missing(results):
+    """Tables without rows, and figures that say so."""
+    tables = {name: pd.read_csv(results / f"{name}.csv") for name in BEYOND}
+    assert all(table.empty for table in tables.values())
+    for figure in (
+        convergence_figure(tables["convergence"]),
+        basin_figure(shares(tables["basin"])),
+        coasting_figure(tables["coasting"], pd.read_parquet(results / "coasting.parquet")),
+    ):
+        assert "not converged" in [text.get_text() for text in figure.axes[0].texts]
+        plt.close(figure)
 
 
 def test_a_missing_case_is_drawn_as_missing(results):

@@ -86,7 +86,9 @@ def cost_lines(cost: pd.DataFrame) -> Figure:
 
 def cost_against_indirect(cost: pd.DataFrame, indirect: pd.DataFrame) -> Figure:
     """Figure 68: cost of direct and of indirect multiple shooting against K."""
-    figure, pair = plt.subplots(1, 2, figsize=(WIDTH, 3.0), sharex=True)
+    figure, pair = plt.subplots(
+        1, 2, figsize=(WIDTH, 3.0), sharex=True, gridspec_kw={"wspace": GUTTER}
+    )
     for axes, column, label in zip(
         pair, ("seconds", "work"), ("printed execution time (s)", WORK), strict=True
     ):
@@ -107,7 +109,6 @@ def cost_against_indirect(cost: pd.DataFrame, indirect: pd.DataFrame) -> Figure:
         axes.set_ylabel(label)
         counts = sorted(cost["intervals"].unique())
         axes.set_xticks(counts, [str(count) for count in counts])
-    figure.get_layout_engine().set(wspace=GUTTER)
     handles, labels = pair[1].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=3)
     return figure
@@ -163,7 +164,7 @@ def mass_above_printed(flown: pd.DataFrame, finals: pd.DataFrame) -> Figure:
         Columns degree, intervals, optimum, and the masses printed, as_published, converged.
     """
     figure, (left, axes) = plt.subplots(
-        1, 2, figsize=(WIDTH, 3.3), gridspec_kw={"width_ratios": [1, 1.7]}
+        1, 2, figsize=(WIDTH, 3.3), gridspec_kw={"width_ratios": [1, 1.9], "wspace": GUTTER}
     )
     for (group, _), path in flown[flown["tau"] >= LAST_TAU].groupby(["group", "label"], sort=False):
         style = GROUPS[str(group)]
@@ -216,7 +217,6 @@ def mass_above_printed(flown: pd.DataFrame, finals: pd.DataFrame) -> Figure:
     axes.grid(False, axis="x")
     axes.set_xlim(-0.5, len(finals) - 0.5)
     axes.set_xlabel("intervals K, by degree", labelpad=16)
-    figure.get_layout_engine().set(wspace=GUTTER)
     handles, _ = axes.get_legend_handles_labels()
     handles += [
         Line2D([], [], color=style.colour, lw=style.width, ls=style.line, label=group)

@@ -14,6 +14,7 @@ from smallsat.studies.transfer.methods.convergence import (
     FLOOR,
     INTERVALS,
     SHOOTING,
+    refined,
     theoretical_order,
 )
 
@@ -32,8 +33,8 @@ def convergence_figure(table: pd.DataFrame) -> Figure:
     figure, (left, right) = plt.subplots(1, 2, figsize=(WIDTH, 3.9), sharey=True)
     for axes in (left, right):
         axes.set_yscale("log")
-        axes.axhline(FLOOR, color=GREY, lw=0.9, ls=":")
         axes.set_ylim(LEAST, 1.0)
+        axes.axhline(FLOOR, color=GREY, lw=0.9, ls=":")
         if table.empty:
             mark_missing(axes)
     _by_intervals(left, table)
@@ -54,22 +55,18 @@ def convergence_figure(table: pd.DataFrame) -> Figure:
 
 
 def _by_intervals(axes: Axes, table: pd.DataFrame) -> None:
-    groups = table[table["intervals"].isin(INTERVALS)].groupby(["method", "degree"], sort=False)
-    groups = [one for one in groups if len(one[1]) == len(INTERVALS)]
-    for colour, ((method, degree), rows) in zip(CYCLE, groups, strict=False):
-        rows, error = rows.sort_values("intervals"), rows.sort_values("intervals")["error"].abs()
+    for colour, (method, degree, rows) in zip(CYCLE, refined(table), strict=False):
+        count, error = rows["intervals"], rows["error"].abs()
         order = theoretical_order(method, degree)
         if method == SHOOTING:
-            axes.plot(rows["intervals"], rows["predicted"], color=colour, lw=1)
-            style, label = {"marker": "o"}, f"N = {degree}: order {order}"
+            axes.plot(count, rows["predicted"], color=colour, lw=1)
+            label = f"N = {degree}: order {order}"
         else:
-            finest = error.iloc[-1]
-            slope = finest * (rows["intervals"] / rows["intervals"].iloc[-1]) ** -float(order)
-            axes.plot(rows["intervals"].iloc[-3:], slope.iloc[-3:], "--", color=colour, lw=0.9)
-            points = method.removeprefix("collocation, ").capitalize()
-            style = {"marker": "s", "mfc": "none"}
-            label = f"{points}, {degree}: order {order}"
-        axes.plot(rows["intervals"], error, ms=4, lw=0, color=colour, label=label, **style)
+            slope = error.iloc[-1] * (count / count.iloc[-1]) ** -float(order)
+            axes.plot(count.iloc[-3:], slope.iloc[-3:], "--", color=colour, lw=0.9)
+            label = f"{method.removeprefix('collocation, ').capitalize()}, {degree}: order {order}"
+        mark, face = ("o", colour) if method == SHOOTING else ("s", "none")
+        axes.plot(count, error, mark, ms=4, mfc=face, color=colour, label=label)
     axes.set_xscale("log", base=2)
     axes.set_xticks(INTERVALS, [str(count) for count in INTERVALS])
     axes.set_xlabel("intervals K")

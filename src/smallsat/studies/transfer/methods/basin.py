@@ -32,13 +32,13 @@ Shoot = Callable[[np.ndarray], float]
 
 COLUMNS = ["method", "unknowns", "spread", "start", "final_time"]
 
-SPREADS = (0.125, 0.25, 0.5, 1.0)
+SPREADS = (0.25, 0.5, 1.0, 2.0)
 # Numbers of intervals of indirect shooting, and the mesh of direct collocation, whose own error is
 # below the difference at which two final times are two.
 INTERVALS = (1, 4)
-MESH = Collocation(40, 3, "legendre")
+MESH = Collocation(20, 4, "legendre")
 # Iterations of the interior-point method: from the extremal it takes five.
-MOST_ITERATIONS = 100
+MOST_ITERATIONS = 50
 
 
 def basin(section: Configuration) -> pd.DataFrame:

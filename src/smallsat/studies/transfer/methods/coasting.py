@@ -6,6 +6,7 @@ function: thrust where it is positive, coast where it is negative. Everything is
 """
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import casadi as ca
 import numpy as np
@@ -81,7 +82,7 @@ def coasting(section: Configuration) -> tuple[pd.DataFrame, pd.DataFrame]:
     final_time, mass = float(shortest["t"].iloc[-1]), float(shortest["m"].iloc[-1])
     status = "never coasts" if (shortest["switching"] > 0.0).all() else "would coast"
     end = (final_time * units.time, mass * units.mass)
-    rows = [(0.0, *end, np.nan, np.nan, 0.0, path_error(problem, shortest), status)]
+    rows: list[tuple] = [(0.0, *end, np.nan, np.nan, 0.0, path_error(problem, shortest), status)]
     frames = [shortest.assign(excess=0.0, thrusting=True)]
     guess = first_guess(problem, shortest)
     for excess in EXCESSES:
@@ -113,7 +114,7 @@ def of_least_time(problem: TransferProblem, extremal: pd.DataFrame) -> pd.DataFr
     """The extremal with the costate of least time, and its switching function.
 
     The document maximises the final mass, so that its mass costate ends at 1. Where least time is
-    the objective a mass left over is worth nothing and the mass costate ends at 0; it obeys the same
+    the objective, mass left over is worth nothing and the mass costate ends at 0; it obeys the same
     equation, and no other costate changes. As it never falls, it is negative before the end, and S
     is positive: a flight in least time never coasts.
     """
@@ -178,19 +179,19 @@ def solve_coast(
         ftol=1e-15,
         gtol=1e-15,
     )
+    ends_at, begins_at = (float(value) for value in result.x[4:])
     costate = np.insert(result.x[:4], 1, 0.0)
-    off, on = (float(value) for value in result.x[4:])
-    return Coast(costate, off, on, final_time, error_magnitude(result.fun))
+    return Coast(costate, ends_at, begins_at, final_time, error_magnitude(result.fun))
 
 
 def fly(problem: TransferProblem, coast: Coast) -> pd.DataFrame:
     """Fly a coast anew by an integrator of another kind, resetting nothing: PATH_COLUMNS."""
     y = np.concatenate([problem.initial_state, coast.costate])
     ends = [0.0, coast.off, coast.on, coast.final_time]
-    if not all(a < b for a, b in zip(ends[:-1], ends[1:], strict=True)):
+    if not all(a < b for a, b in pairwise(ends)):
         return pd.DataFrame(columns=PATH_COLUMNS)
     frames = []
-    for one, begin, end in zip(_arcs(problem), ends[:-1], ends[1:], strict=True):
+    for one, (begin, end) in zip(_arcs(problem), pairwise(ends), strict=True):
         flight = solve_ivp(
             lambda _, y, one=one: one.extremal_rate(y[:5], y[5:]),
             (begin, end),

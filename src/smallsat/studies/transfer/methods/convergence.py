@@ -164,6 +164,17 @@ def theoretical_order(method: str, degree: int) -> int:
     return 2 * degree - (method == collocation_name("radau"))
 
 
+def refined(table: pd.DataFrame) -> list[tuple[str, int, pd.DataFrame]]:
+    """Method, degree and rows of a table of `convergence`, where they have all INTERVALS."""
+    rows = table[table["intervals"].isin(INTERVALS)].sort_values("intervals")
+    groups = [
+        (str(name), int(str(degree)), group)
+        for name in table["method"].unique()
+        for degree, group in rows[rows["method"] == name].groupby("degree")
+    ]
+    return [one for one in groups if len(one[2]) == len(INTERVALS)]
+
+
 def orders(table: pd.DataFrame) -> pd.DataFrame:
     """Order in the intervals, measured between the two finest meshes above the floor.
 
@@ -175,21 +186,16 @@ def orders(table: pd.DataFrame) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        Columns method, degree, intervals (of the finer mesh), error (of it), measured, theory; of
-        each method and degree that has all INTERVALS.
+        Columns method, degree, intervals (of the finer mesh), error (of it), measured, theory.
     """
     rows = []
-    for (method, degree), group in table.groupby(["method", "degree"], sort=False):
-        group = group[group["intervals"].isin(INTERVALS)].sort_values("intervals")
-        if len(group) < len(INTERVALS):
-            continue
+    for method, degree, group in refined(table):
         finest = group[group["error"].abs() > FLOOR].tail(2)
         if len(finest) < 2:
             continue
         (coarse, fine), (far, near) = finest["intervals"], finest["error"].abs()
         measured = np.log(far / near) / np.log(fine / coarse)
-        theory = theoretical_order(str(method), int(degree))
-        rows.append((method, degree, fine, near, measured, theory))
+        rows.append((method, degree, fine, near, measured, theoretical_order(method, degree)))
     columns = ["method", "degree", "intervals", "error", "measured", "theory"]
     return pd.DataFrame(rows, columns=columns)
 
