@@ -216,7 +216,7 @@ def mass_above_printed(flown: pd.DataFrame, finals: pd.DataFrame) -> Figure:
         axes.axvline(places[0] - 0.5, color=GREY, lw=0.6)
     axes.grid(False, axis="x")
     axes.set_xlim(-0.5, len(finals) - 0.5)
-    axes.set_xlabel("intervals K, by degree", labelpad=16)
+    axes.set_xlabel("intervals K, by degree", labelpad=19)
     handles, _ = axes.get_legend_handles_labels()
     handles += [
         Line2D([], [], color=style.colour, lw=style.width, ls=style.line, label=group)

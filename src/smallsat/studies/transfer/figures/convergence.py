@@ -41,7 +41,7 @@ def convergence_figure(table: pd.DataFrame) -> Figure:
     _by_degree(right, table)
     left.set_ylabel("error of $t_f$, share of the optimum")
     if len(table):
-        left.legend(loc="lower left", fontsize=7, ncols=2)
+        left.legend(loc="lower left", fontsize=7)
         right.legend(loc="lower left", fontsize=7)
     handles = [
         Line2D([], [], marker="o", ms=4, lw=0, color=BLACK, label="shooting"),
