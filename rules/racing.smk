@@ -57,6 +57,20 @@ step(
     makes=["dynamic-programming.csv", "dynamic-programming-not-converged.csv"],
     **COURSES,
 )
+step(
+    "racing",
+    "weighted_misses",
+    makes=["ring-multipliers.csv", "miss-weights.csv", "miss-weights-not-converged.csv"],
+    **COURSES,
+)
+step(
+    "racing",
+    "drifting_rings",
+    reads=[f"optima-{scenario}-races.csv" for scenario in SCENARIOS],
+    makes=["drifting-rings.csv", "drifting-rings-not-converged.csv"],
+    **COURSES,
+)
+step("racing", "dispersions", makes=["dispersions.csv", "dispersed-flights.csv"], **COURSES)
 
 for shard in RANDOM_SHARDS:
     step(
@@ -87,6 +101,8 @@ step(
         *[f"random-courses-{shard}-not-converged.csv" for shard in RANDOM_SHARDS],
         "checks-not-converged.csv",
         "dynamic-programming-not-converged.csv",
+        "miss-weights-not-converged.csv",
+        "drifting-rings-not-converged.csv",
     ],
     published=["values.csv"],
     makes=["races.csv", "rings.csv", "random-courses.csv", "observations.csv", "not-converged.csv"],

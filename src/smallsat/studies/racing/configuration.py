@@ -145,6 +145,24 @@ class SpecificImpulses(Part):
     field_emission: Positive
 
 
+class MissWeights(Part):
+    """Weights of a miss, as shares of the largest ring multiplier of this CubeSat's race."""
+
+    cubesat: Literal["Eeny", "Meeny", "Miny", "Mo"]
+    threshold_shares: Several[Positive]
+
+
+class Dispersions(Part):
+    """Standard deviations of what differs from the plan: by axis, but for the thrust."""
+
+    flights: Annotated[Integer, Interval(ge=20, le=100000)]
+    seed: Seed
+    position_m: Positive
+    velocity_m_s: Positive
+    thrust_pct: Positive
+    pointing_deg: Positive
+
+
 class Animation(Part):
     frames_per_s: Count
     step_s: Positive
@@ -164,6 +182,8 @@ class Configuration(Part):
     random_courses: RandomCourses
     thrust_sweep_m_s2: Annotated[Several[Positive], Len(2)]
     specific_impulses_s: SpecificImpulses
+    miss_weights: MissWeights
+    dispersions: Dispersions
     animation: Animation
 
 

@@ -52,6 +52,9 @@ class Leg:
         Centres and normals of the rings to cross, (l, 3).
     end_position, end_velocity
         Where to finish, (3,); of a finish "rest anywhere" only the position is used, as a guess.
+    weight
+        What a metre off a ring's centre costs, s/m, where the program lets rings be missed; the
+        document's own if nothing is said (Eq. 6).
     """
 
     position: np.ndarray
@@ -60,6 +63,7 @@ class Leg:
     normals: np.ndarray
     end_position: np.ndarray
     end_velocity: np.ndarray
+    weight: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -68,6 +72,32 @@ class Arcs:
 
     speed: Any = 0.6
     time: Any = 2.2
+
+
+@dataclass(frozen=True)
+class Symbols:
+    """What a kind of program makes its nodes of, scaled CasADi expressions.
+
+    Attributes
+    ----------
+    times, speeds
+        Durations of the segments (m,) and speeds at the rings (l,).
+    own
+        Variables (d, l) of the rings that this kind of program alone has.
+    centres, normals, end
+        Of the rings (3, l), and the state at a given finish (6,).
+    mean_motion, weight
+        Of the orbit, and of a miss.
+    """
+
+    times: Any
+    speeds: Any
+    own: Any
+    centres: Any
+    normals: Any
+    end: Any
+    mean_motion: Any
+    weight: Any
 
 
 @dataclass(frozen=True)
@@ -135,11 +165,35 @@ class CourseProgram:
         rest at the end ring. ``rest anywhere``: a segment more, to rest at a free place.
     intervals
         Held controls in a segment.
+
+    Another kind of program says how many variables of its own a ring has (``own_variables``), where
+    they begin, what states they make with the others, what they cost, and what has to vanish.
     """
+
+    own_variables = 0
 
     def __init__(self, rings: int, finish: Finish, intervals: int):
         self.rings, self.finish, self.intervals = rings, finish, intervals
         self.segments = rings + (finish != "ring")
+
+    def nodes(self, of: Symbols) -> list[Any]:
+        """States (6,) at the rings, and at a finish that is given."""
+        rings = [
+            ca.vertcat(of.centres[:, k], of.speeds[k] * of.normals[:, k]) for k in range(self.rings)
+        ]
+        return [*rings, of.end] if self.finish == "state" else rings
+
+    def cost(self, of: Symbols) -> Any:
+        """What is minimised, scaled: the time."""
+        return ca.sum1(of.times)
+
+    def own_guess(self, durations: np.ndarray, offsets: np.ndarray) -> np.ndarray:
+        """First guess (l, d) of them, from durations (m,) and offsets (l, 3) of a guess, scaled."""
+        return np.empty((self.rings, 0))
+
+    def restrictions(self, of: Symbols) -> Any:
+        """What has to vanish beside the gaps between pieces: nothing."""
+        return ca.MX(0, 1)
 
     def solve(
         self,
@@ -192,19 +246,21 @@ class CourseProgram:
                 scaled.end_velocity,
                 limits / thrust,
                 [unit.mean_motion, bound],
+                [unit.weight(leg.weight)],
             ]
         )
-        durations, speeds, controls, inner, final = (
+        durations, speeds, controls, inner, final, offsets = (
             self._smooth(scaled, arcs or Arcs())
             if guess is None
             else self._restart(guess, scaled, limits, unit)
         )
         slack = np.maximum(bound - np.sum(controls**2, axis=2), 0.0)
         free = final if self.finish == "rest anywhere" else np.empty(0)
-        parts = (durations, speeds, controls, inner, slack, free)
+        own = self.own_guess(durations, offsets)
+        parts = (durations, speeds, controls, inner, slack, own, free)
         variables = np.concatenate([np.ravel(part) for part in parts])
         solution = (solver or self._solver).solve(variables, parameters.tolist())
-        return self._plan(solution, scaled, limits, unit)
+        return self._plan(solution, parameters, limits, unit)
 
     @cached_property
     def _solver(self) -> IpoptSolver:
@@ -217,11 +273,12 @@ class CourseProgram:
 
     def _ipopt(self, **barrier: Any) -> IpoptSolver:
         return IpoptSolver(
-            self._program, expand=True, tol=1e-9, max_iter=150, linear_solver="mumps", **barrier
+            self._program[0], expand=True, tol=1e-9, max_iter=150, linear_solver="mumps", **barrier
         )
 
     @cached_property
-    def _program(self) -> NonlinearProgram:
+    def _program(self) -> tuple[NonlinearProgram, ca.Function]:
+        """The program, and the states at its nodes (6, m + 1) by its variables and parameters."""
         m, n, rings = self.segments, self.intervals, self.rings
         speeds, times = ca.MX.sym("speed", rings), ca.MX.sym("T", m)
         inner, controls = ca.MX.sym("X", 6, m * (n - 1)), ca.MX.sym("U", 3, m * n)
@@ -234,13 +291,13 @@ class CourseProgram:
         )
         end, limits = ca.MX.sym("x_f", 6), ca.MX.sym("u_max", 3)
         mean_motion, bound = ca.MX.sym("omega"), ca.MX.sym("b")
+        others, weight = ca.MX.sym("own", self.own_variables * rings), ca.MX.sym("w")
 
         flow = _flow(n).map(m * n)
-        nodes: list[Any] = [start]
-        nodes += [ca.vertcat(centres[:, k], speeds[k] * normals[:, k]) for k in range(rings)]
-        if self.finish == "state":
-            nodes.append(end)
-        elif self.finish == "rest anywhere":
+        by_ring = ca.reshape(others, self.own_variables, rings)
+        symbols = Symbols(times, speeds, by_ring, centres, normals, end, mean_motion, weight)
+        nodes = [start, *self.nodes(symbols)]
+        if self.finish == "rest anywhere":
             nodes.append(ca.vertcat(free, ca.MX.zeros(3)))
         before, after = [], []
         for k in range(m):
@@ -253,7 +310,7 @@ class CourseProgram:
             ca.horzcat(*before), applied, lengths, ca.repmat(mean_motion, 1, m * n)
         ) - ca.horzcat(*after)
         ball = ca.sum1(controls**2).T + slack - bound
-        variables = ca.vertcat(times, speeds, ca.vec(controls), ca.vec(inner), slack, free)
+        variables = ca.vertcat(times, speeds, ca.vec(controls), ca.vec(inner), slack, others, free)
         low = np.concatenate(
             [
                 np.full(m, SHORTEST),
@@ -261,7 +318,7 @@ class CourseProgram:
                 np.full(3 * m * n, -1.0),
                 np.full(6 * m * (n - 1), -np.inf),
                 np.zeros(m * n),
-                np.full(free.numel(), -np.inf),
+                np.full(others.numel() + free.numel(), -np.inf),
             ]
         )
         high = np.concatenate(
@@ -269,15 +326,16 @@ class CourseProgram:
                 np.full(m, LONGEST),
                 np.full(rings, np.inf),
                 np.ones(3 * m * n),
-                np.full(6 * m * (n - 1) + m * n + free.numel(), np.inf),
+                np.full(6 * m * (n - 1) + m * n + others.numel() + free.numel(), np.inf),
             ]
         )
         parameters = ca.vertcat(
-            start, ca.vec(centres), ca.vec(normals), end, limits, mean_motion, bound
+            start, ca.vec(centres), ca.vec(normals), end, limits, mean_motion, bound, weight
         )
-        return NonlinearProgram(
-            variables, ca.sum1(times), ca.vertcat(ca.vec(gaps), ball), low, high, parameters
-        )
+        constraints = ca.vertcat(ca.vec(gaps), ball, self.restrictions(symbols))
+        states = ca.Function("nodes", [variables, parameters], [ca.horzcat(*nodes)])
+        cost = self.cost(symbols)
+        return NonlinearProgram(variables, cost, constraints, low, high, parameters), states
 
     def _smooth(self, leg: Leg, arcs: Arcs) -> tuple[np.ndarray, ...]:
         """Cubic arcs through the ring centres along their normals; their controls are clipped."""
@@ -299,7 +357,7 @@ class CourseProgram:
         size = np.linalg.norm(controls, axis=2, keepdims=True)
         controls *= GUESS_THRUST / np.maximum(size, GUESS_THRUST)
         inner = np.concatenate([place, rate / t], axis=2)
-        return durations, speeds, controls, inner, leg.end_position
+        return durations, speeds, controls, inner, leg.end_position, np.zeros((self.rings, 3))
 
     def _restart(
         self, plan: Plan, leg: Leg, limits: np.ndarray, unit: "_Units"
@@ -316,22 +374,18 @@ class CourseProgram:
             for i in range(self.intervals - 1):
                 x = flow(x, controls[k, i] * limits / limits.max(), durations[k], unit.mean_motion)
                 inner[k, i] = x.full().ravel()
-        speeds = np.linalg.norm(unit.state(plan.ends)[: self.rings, 3:], axis=1)
-        return durations, speeds, controls, inner, unit.state(plan.final)[:3]
+        passed = unit.state(plan.ends)[: self.rings]
+        speeds, offsets = np.linalg.norm(passed[:, 3:], axis=1), passed[:, :3] - leg.centres
+        return durations, speeds, controls, inner, unit.state(plan.final)[:3], offsets
 
-    def _plan(self, solution: Solution, leg: Leg, limits: np.ndarray, unit: "_Units") -> Plan:
+    def _plan(
+        self, solution: Solution, parameters: np.ndarray, limits: np.ndarray, unit: "_Units"
+    ) -> Plan:
         m, n, rings = self.segments, self.intervals, self.rings
         z = solution.variables
-        durations, speeds = z[:m], z[m : m + rings]
+        durations = z[:m]
         controls = z[m + rings : m + rings + 3 * m * n].reshape(m, n, 3)
-        nodes = np.column_stack([leg.centres, speeds[:, None] * leg.normals])
-        starts = np.vstack([np.r_[leg.position, leg.velocity], nodes])[:m]
-        if self.finish == "ring":
-            final = nodes[-1]
-        elif self.finish == "state":
-            final = np.r_[leg.end_position, leg.end_velocity]
-        else:
-            final = np.r_[z[-3:], np.zeros(3)]
+        nodes = self._program[1](z, parameters).full().T
         assert solution.multipliers is not None
         # The multiplier of a gap is the costate at the end of its piece.
         ends = solution.multipliers[: 6 * m * n].reshape(m, n, 6)[:, 0]
@@ -340,10 +394,10 @@ class CourseProgram:
         )
         return Plan(
             durations=durations * unit.time,
-            starts=starts * unit.states,
+            starts=nodes[:-1] * unit.states,
             controls=controls * limits,
             costates=costates * unit.time / unit.states,
-            final=final * unit.states,
+            final=nodes[-1] * unit.states,
             solution=solution,
         )
 
@@ -377,6 +431,9 @@ class _Units:
 
     def state(self, state: np.ndarray) -> np.ndarray:
         return state / self.states
+
+    def weight(self, weight: float) -> float:
+        return weight * self.length / self.time
 
     def leg(self, leg: Leg) -> Leg:
         speed = self.length / self.time

@@ -22,6 +22,8 @@ def run(step: Step[Configuration]) -> Tables:
     solving = [
         "checks",
         "dynamic-programming",
+        "miss-weights",
+        "drifting-rings",
         *[f"optima-{scenario}" for scenario in SCENARIOS],
         *shards,
     ]
