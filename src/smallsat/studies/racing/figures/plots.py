@@ -1,5 +1,6 @@
 """Figures of the racing study: courses, races, trajectories, segments and what goes beyond."""
 
+from itertools import pairwise
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -8,6 +9,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse
+from mpl_toolkits.mplot3d import proj3d
 
 from smallsat.drawing.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION, WIDTH
 from smallsat.studies.racing.figures.drawing import (
@@ -37,8 +39,11 @@ FACE = 3.0
 SIDE_MARGIN, ASTRAY_M = 50.0, 60.0
 # Length of a ring's arrow in it, m, and width of the panel, in inches.
 NORMAL_M, SIDE_WIDTH = 45.0, 4.0
-# How far from a course's line the numbers of its rings stand, m.
-NUMBER_M = 95.0
+# Height of a panel, inches: with two of them a figure is printed in its own size.
+TALLEST = 1.55
+# How far from its ring a number stands, as shares of a panel's width, and in which directions.
+NUMBER_AWAY = (0.035, 0.055, 0.075)
+NUMBER_TURNS = np.linspace(0.0, 2.0 * np.pi, 16, endpoint=False)
 POINTS = ["x_m", "y_m", "z_m"]
 SOLUTION_COLOURS = {
     LISTING: VERMILION,
@@ -56,25 +61,41 @@ SHORT = {
 }
 
 
-def _course_in(axes: Any, course: Course, numbers: bool = True) -> np.ndarray:
-    """Draw rings, normals and order; returns what is to be in view."""
+def _course_in(axes: Any, course: Course) -> np.ndarray:
+    """Draw rings and normals; returns what is to be in view."""
     path = np.vstack([course.start, course.centres, course.end])
     axes.plot(*path.T, color="#cccccc", lw=0.7)
-    # Numbers stand off the line, on the side away from its neighbours.
-    aside = course.centres - 0.5 * (path[:-2] + path[2:])
-    aside /= np.maximum(np.linalg.norm(aside, axis=1), 1e-9)[:, None]
     for k in range(course.rings):
         axes.plot(*ring_curve(course, k, ENLARGED).T, color=RING, lw=0.9)
         axes.quiver(
             *course.centres[k], *(ARROW_M * course.normals[k]), color=BLACK, lw=0.7,
             arrow_length_ratio=0.35,
         )  # fmt: skip
-        if numbers:
-            spot = course.centres[k] + NUMBER_M * aside[k]
-            axes.text(*spot, str(k + 1), fontsize=6, ha="center", va="center")
     axes.plot(*course.start[:, None], "s", color=GREEN, ms=4)
     axes.plot(*course.end[:, None], "s", color=VERMILION, ms=4)
     return path
+
+
+def _number_rings(axes: Any, course: Course, path: np.ndarray) -> None:
+    """Number the rings in a view that is set: each where the picture has most room around it."""
+    projection = axes.get_proj()
+
+    def seen(points: np.ndarray) -> np.ndarray:
+        return np.column_stack(proj3d.proj_transform(*points.T, projection)[:2])
+
+    steps = np.linspace(0.0, 1.0, 12, endpoint=False)[:, None]
+    line = np.vstack([a + steps * (b - a) for a, b in pairwise(path)])
+    tips = course.centres + ARROW_M * course.normals
+    taken = seen(np.vstack([line, course.centres, course.end, tips]))
+    width = float(np.ptp(taken[:, 0]))
+    ways = np.column_stack([np.cos(NUMBER_TURNS), np.sin(NUMBER_TURNS)])
+    around = np.vstack([width * away * ways for away in NUMBER_AWAY])
+    for k, spot in enumerate(seen(course.centres)):
+        room = np.linalg.norm((spot + around)[:, None] - taken, axis=2).min(axis=1)
+        # Nearer places come first where they are about as free.
+        best = spot + around[np.argmax(room.round(2) - 0.1 * np.linalg.norm(around, axis=1))]
+        axes.annotate(str(k + 1), best, fontsize=6, ha="center", va="center")
+        taken = np.vstack([taken, best])
 
 
 def course_figure(course: Course, paths: pd.DataFrame) -> Figure:
@@ -82,14 +103,15 @@ def course_figure(course: Course, paths: pd.DataFrame) -> Figure:
 
     Rings are numbered in order; the first view is the document's.
     """
-    figure = plt.figure(figsize=(WIDTH, 2.9), layout="none")
-    for left, turned in ((0.035, 0.0), (0.385, 90.0)):
-        axes: Any = figure.add_axes((left, 0.02, 0.33, 0.9), projection="3d")
+    figure = plt.figure(figsize=(WIDTH, 3.0), layout="none")
+    for left, turned in ((0.035, 0.0), (0.405, 90.0)):
+        axes: Any = figure.add_axes((left, 0.02, 0.345, 0.9), projection="3d")
         path = _course_in(axes, course)
         box(axes, path)
         label_axes(axes)
         look(axes, turned)
-    near = figure.add_axes((0.845, 0.34, 0.15, 0.43))
+        _number_rings(axes, course, path)
+    near = figure.add_axes((0.88, 0.42, 0.115, 0.36))
     for name, colour in COLOURS.items():
         own = paths[(paths["solution"] == OPTIMAL) & (paths["cubesat"] == name)]
         if len(own):
@@ -104,7 +126,8 @@ def course_figure(course: Course, paths: pd.DataFrame) -> Figure:
     near.set_xlabel("radial (m)", fontsize=7)
     near.set_ylabel("cross track (m)", fontsize=7)
     near.set_title("at the start", fontsize=8)
-    near.legend(loc="upper center", bbox_to_anchor=(0.45, -0.4), fontsize=6, ncols=2)
+    near.legend(loc="upper center", bbox_to_anchor=(0.35, -0.42), fontsize=6, ncols=2,
+                handlelength=1.0, columnspacing=1.0)  # fmt: skip
     figure.text(
         0.4, 0.95, f"{course.rings} rings, drawn {ENLARGED:g} times their size; arrows along the "
         "normals; start green, end red", ha="center", fontsize=8,
@@ -126,7 +149,7 @@ def race_figure(course: Course, paths: pd.DataFrame, races: pd.DataFrame) -> Fig
     figure = plt.figure(figsize=(WIDTH, 3.9), layout="none")
     for place, solution in enumerate((LISTING, OPTIMAL)):
         axes: Any = figure.add_axes((0.5 * place + 0.02, 0.23, 0.46, 0.7), projection="3d")
-        around = _course_in(axes, course, numbers=False)
+        around = _course_in(axes, course)
         box(axes, around, 0.25)
         limits = np.array([axes.get_xlim(), axes.get_ylim(), axes.get_zlim()])
         scores = races[races["solution"] == solution].set_index("cubesat")
@@ -160,10 +183,10 @@ def path_data(paths: pd.DataFrame) -> pd.DataFrame:
 
 
 PANELS = (
-    ("position (m)", ["x_m", "y_m", "z_m"]),
-    ("velocity (m/s)", ["vx_m_s", "vy_m_s", "vz_m_s"]),
-    ("position\nadjoints (s/m)", ["px", "py", "pz"]),
-    ("primer (s$^2$/m)", ["pvx", "pvy", "pvz"]),
+    ("position\n(m)", ["x_m", "y_m", "z_m"]),
+    ("velocity\n(m/s)", ["vx_m_s", "vy_m_s", "vz_m_s"]),
+    ("adjoints $p_r$\n(s/m)", ["px", "py", "pz"]),
+    ("primer\n(s$^2$/m)", ["pvx", "pvy", "pvz"]),
 )
 # Below them each axis of the thrust by itself: they change too often to be told apart in one.
 STRIPS = ("ux_m_s2", "uy_m_s2", "uz_m_s2")
@@ -173,8 +196,8 @@ def trajectory_figure(course: Course, paths: pd.DataFrame, cubesat: str) -> Figu
     """Figs. 3 to 6 and 9 to 12: state, adjoints and thrust over time; dots where rings ask."""
     rows = len(PANELS) + len(STRIPS)
     figure, grid = plt.subplots(
-        rows, 2, figsize=(WIDTH, 8.2), sharex="col",
-        height_ratios=[1.0] * len(PANELS) + [0.45] * len(STRIPS),
+        rows, 2, figsize=(WIDTH, 5.4), sharex="col",
+        height_ratios=[1.0] * len(PANELS) + [0.55] * len(STRIPS),
     )  # fmt: skip
     for column, solution in enumerate((LISTING, OPTIMAL)):
         own = paths[(paths["solution"] == solution) & (paths["cubesat"] == cubesat)]
@@ -203,9 +226,9 @@ def trajectory_figure(course: Course, paths: pd.DataFrame, cubesat: str) -> Figu
         grid[0, column].set_title(TITLES[solution])
         grid[-1, column].set_xlabel("time (s)")
     for axes, (label, _) in zip(grid[:, 0], PANELS, strict=False):
-        axes.set_ylabel(label)
+        axes.set_ylabel(label, fontsize=8)
     for axes, axis in zip(grid[len(PANELS) :, 0], AXIS_COLOURS, strict=True):
-        axes.set_ylabel(f"$u_{axis}$ (m/s$^2$)", fontsize=8)
+        axes.set_ylabel(f"$u_{axis}$\n(m/s$^2$)", fontsize=7)
     figure.align_ylabels(grid[:, 0])
     handles = [
         *(Line2D([], [], color=colour, label=axis) for axis, colour in AXIS_COLOURS.items()),
@@ -244,7 +267,7 @@ def segment_figure(course: Course, paths: pd.DataFrame, segment: int) -> Figure:
     astray = np.clip((positions(own) - before) @ view[1], low[1] - ASTRAY_M, high[1] + ASTRAY_M)
     low[1], high[1] = min([low[1], *astray]), max([high[1], *astray])
     shape = float((high - low)[1] / (high - low)[0])
-    tall = float(np.clip(0.85 * SIDE_WIDTH * shape, 0.8, 2.6))
+    tall = float(np.clip(0.85 * SIDE_WIDTH * shape, 0.8, TALLEST))
     figure = plt.figure(figsize=(WIDTH, 2.0 * tall + 1.3))
     grid = figure.add_gridspec(2, 2, width_ratios=(SIDE_WIDTH, WIDTH - SIDE_WIDTH))
     sides = [figure.add_subplot(grid[0, 0])]
