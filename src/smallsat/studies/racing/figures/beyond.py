@@ -72,14 +72,14 @@ def drift_figure(races: pd.DataFrame) -> Figure:
     left.set_yticks(range(len(names)), names)
     left.invert_yaxis()
     left.set_xlabel("longer than with fixed rings (%)")
-    right.set_xlabel("from the printed place, mean and largest (m)")
+    right.set_xlabel("drift, mean and largest (m)")
     figure.legend(loc="outside upper center", ncols=2, title="rings", title_fontsize=8)
     return figure
 
 
 def dispersion_figure(rings: pd.DataFrame) -> Figure:
     """What open-loop flights of one CubeSat miss, by source, and how many pass, of each CubeSat."""
-    figure, (left, right) = plt.subplots(1, 2, figsize=(WIDTH, 3.1))
+    figure, (left, right) = plt.subplots(1, 2, figsize=(WIDTH, 3.6))
     own = rings[rings["scenario"] == "scenario-1"]
     one = own[(own["cubesat"] == "Meeny") & (own["flown"] == OPEN_LOOP)]
     for source, colour in SOURCE_COLOURS.items():
@@ -90,7 +90,7 @@ def dispersion_figure(rings: pd.DataFrame) -> Figure:
     left.set_xlabel("time (s)")
     left.set_ylabel("miss that 95 % stay below (m)")
     left.set_title("Meeny, open loop")
-    left.legend(fontsize=6.5, ncols=2)
+    left.legend(loc="upper center", bbox_to_anchor=(0.5, -0.19), fontsize=7, ncols=3)
     every = own[own["source"] == TOGETHER]
     for name, colour in COLOURS.items():
         for flown, style in ((OPEN_LOOP, ":"), (EACH_RING, "-")):
@@ -105,5 +105,5 @@ def dispersion_figure(rings: pd.DataFrame) -> Figure:
     right.set_ylabel("flights through all rings so far (%)")
     right.set_ylim(0.0, 100.0)
     right.set_title("all errors together")
-    right.legend(fontsize=6.5)
+    right.legend(loc="upper center", bbox_to_anchor=(0.5, -0.19), fontsize=7, ncols=3)
     return figure
