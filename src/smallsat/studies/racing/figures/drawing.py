@@ -70,7 +70,7 @@ def box(axes: Any, points: np.ndarray, margin: float = 0.05) -> None:
 def label_axes(axes: Any) -> None:
     """Names and few ticks of a 3D view."""
     for name, text in zip("xyz", AXES_LABELS, strict=True):
-        getattr(axes, f"set_{name}label")(text, fontsize=6.5, labelpad=-10 if name == "z" else -5)
+        getattr(axes, f"set_{name}label")(text, fontsize=6.5, labelpad=-7 if name == "z" else -5)
     axes.tick_params(labelsize=5.5, pad=-3)
     axes.locator_params(nbins=3)
 

@@ -104,14 +104,14 @@ def course_figure(course: Course, paths: pd.DataFrame) -> Figure:
     Rings are numbered in order; the first view is the document's.
     """
     figure = plt.figure(figsize=(WIDTH, 3.0), layout="none")
-    for left, turned in ((0.035, 0.0), (0.405, 90.0)):
-        axes: Any = figure.add_axes((left, 0.02, 0.345, 0.9), projection="3d")
+    for left, turned in ((0.05, 0.0), (0.405, 90.0)):
+        axes: Any = figure.add_axes((left, 0.02, 0.335, 0.9), projection="3d")
         path = _course_in(axes, course)
         box(axes, path)
         label_axes(axes)
         look(axes, turned)
         _number_rings(axes, course, path)
-    near = figure.add_axes((0.88, 0.42, 0.115, 0.36))
+    near = figure.add_axes((0.89, 0.42, 0.105, 0.36))
     for name, colour in COLOURS.items():
         own = paths[(paths["solution"] == OPTIMAL) & (paths["cubesat"] == name)]
         if len(own):
@@ -148,7 +148,7 @@ def race_figure(course: Course, paths: pd.DataFrame, races: pd.DataFrame) -> Fig
     """Figs. 2 and 8: all CubeSats, our solve of the listing and the optimum, on the same scale."""
     figure = plt.figure(figsize=(WIDTH, 3.9), layout="none")
     for place, solution in enumerate((LISTING, OPTIMAL)):
-        axes: Any = figure.add_axes((0.5 * place + 0.02, 0.23, 0.46, 0.7), projection="3d")
+        axes: Any = figure.add_axes((0.5 * place + 0.04, 0.23, 0.44, 0.7), projection="3d")
         around = _course_in(axes, course)
         box(axes, around, 0.25)
         limits = np.array([axes.get_xlim(), axes.get_ylim(), axes.get_zlim()])
