@@ -85,10 +85,11 @@ def test_no_other_control_is_better(programs, seed, size):
 def test_random_programs_agree_with_clarabel(seed, stages, weight, one_norm):
     """Made-up programs with random planes, bounds, weights: costs within 1e-6."""
     random = np.random.default_rng(seed)
-    a = np.eye(6) + 0.1 * random.normal(size=(6, 6))
+    a = np.eye(6) + 0.1 * random.normal(size=(stages, 6, 6))
     # the solver's A does not mix motion in the orbit's plane and out of it
-    inside, outside = [0, 1, 3, 4], [2, 5]
-    a[np.ix_(inside, outside)] = a[np.ix_(outside, inside)] = 0.0
+    inside, outside = np.array([0, 1, 3, 4]), np.array([2, 5])
+    a[:, inside[:, None], outside] = 0.0
+    a[:, outside[:, None], inside] = 0.0
     root = random.normal(size=(6, 6))
     bounds = 4
     program = Program(

@@ -4,7 +4,7 @@ The problem, in scaled units in which every control lies in [-1, 1]:
 
     minimise    sum_i  x_i' H x_i / 2 + h_i' x_i  +  u_i' R u_i / 2 + v' |u_i|
                 + sum over rows  w (g' x_i - b)+          (x_N has its own H)
-    subject to  x_{i+1} = A (x_i + [0; u_i]),   -1 <= u_i <= 1
+    subject to  x_{i+1} = A_i (x_i + [0; u_i]),   -1 <= u_i <= 1
 
 A row with a finite weight is a penalty; one with a large weight is a constraint that gives way only
 where nothing else is possible. So every problem has a solution, and the rows that gave way can be
@@ -51,8 +51,8 @@ class Program(NamedTuple):
 
     Attributes
     ----------
-    transition
-        A, (6, 6).
+    transitions
+        A of each stage, (N, 6, 6).
     state_hessian, terminal_hessian
         Diagonal of H, (6,), and H of the last stage, (6, 6).
     state_gradient
@@ -66,7 +66,7 @@ class Program(NamedTuple):
         (N + 1, B).
     """
 
-    transition: np.ndarray
+    transitions: np.ndarray
     state_hessian: np.ndarray
     terminal_hessian: np.ndarray
     state_gradient: np.ndarray
@@ -160,16 +160,16 @@ def workspace(stages, planes, bounds):
 
 
 @compiled_arithmetic
-def roll_out(transition, start, controls, stages, states):
-    """States of the controls: x_{i+1} = A (x_i + [0; u_i])."""
+def roll_out(transitions, start, controls, stages, states):
+    """States of the controls: x_{i+1} = A_i (x_i + [0; u_i])."""
     for k in range(STATES):
         states[0, k] = start[k]
     for i in range(stages):
         for j in range(STATES):
             total = 0.0
             for k in range(3):
-                total += transition[j, k] * states[i, k]
-                total += transition[j, 3 + k] * (states[i, 3 + k] + controls[i, k])
+                total += transitions[i, j, k] * states[i, k]
+                total += transitions[i, j, 3 + k] * (states[i, 3 + k] + controls[i, k])
             states[i + 1, j] = total
 
 
@@ -334,18 +334,13 @@ def _assemble_curvature(program, stages, work):
 
 
 @compiled_arithmetic
-def _factor(transition, stages, work):
+def _factor(transitions, stages, work):
     """Riccati recursion: gains and inverses of every stage.
 
     Written out in scalars, which stay in registers: motion in the orbit's plane (x, y, vx, vy) and
     out of it (z, vz) do not mix in A, but do in the cost-to-go P. For each stage M = A'PA, then
     the controls' part of M plus their own curvature is inverted.
     """
-    axx, axy, axu, axv = transition[0, 0], transition[0, 1], transition[0, 3], transition[0, 4]
-    ayx, ayy, ayu, ayv = transition[1, 0], transition[1, 1], transition[1, 3], transition[1, 4]
-    aux, auy, auu, auv = transition[3, 0], transition[3, 1], transition[3, 3], transition[3, 4]
-    avx, avy, avu, avv = transition[4, 0], transition[4, 1], transition[4, 3], transition[4, 4]
-    azz, azw, awz, aww = transition[2, 2], transition[2, 5], transition[5, 2], transition[5, 5]
     last = work.curvature[stages]
     pxx, pxy, pxz, pxu, pxv, pxw = (
         last[0, 0],
@@ -360,6 +355,12 @@ def _factor(transition, stages, work):
     puu, puv, puw = last[3, 3], last[3, 4], last[3, 5]
     pvv, pvw, pww = last[4, 4], last[4, 5], last[5, 5]
     for i in range(stages - 1, -1, -1):
+        a = transitions[i]
+        axx, axy, axu, axv = a[0, 0], a[0, 1], a[0, 3], a[0, 4]
+        ayx, ayy, ayu, ayv = a[1, 0], a[1, 1], a[1, 3], a[1, 4]
+        aux, auy, auu, auv = a[3, 0], a[3, 1], a[3, 3], a[3, 4]
+        avx, avy, avu, avv = a[4, 0], a[4, 1], a[4, 3], a[4, 4]
+        azz, azw, awz, aww = a[2, 2], a[2, 5], a[5, 2], a[5, 5]
         # W = P A, row by row, for the columns that M's upper triangle needs
         wxx = pxx * axx + pxy * ayx + pxu * aux + pxv * avx
         wyx = pxy * axx + pyy * ayx + pyu * aux + pyv * avx
@@ -470,17 +471,18 @@ def _column(i00, i01, i02, i11, i12, i22, x, y, z):
 
 
 @compiled_arithmetic
-def _step(transition, stages, work):
+def _step(transitions, stages, work):
     """Newton step of states and controls for the gradients in the workspace."""
-    axx, axy, axu, axv = transition[0, 0], transition[0, 1], transition[0, 3], transition[0, 4]
-    ayx, ayy, ayu, ayv = transition[1, 0], transition[1, 1], transition[1, 3], transition[1, 4]
-    aux, auy, auu, auv = transition[3, 0], transition[3, 1], transition[3, 3], transition[3, 4]
-    avx, avy, avu, avv = transition[4, 0], transition[4, 1], transition[4, 3], transition[4, 4]
-    azz, azw, awz, aww = transition[2, 2], transition[2, 5], transition[5, 2], transition[5, 5]
     rhs = work.state_rhs
     px, py, pz = rhs[stages, 0], rhs[stages, 1], rhs[stages, 2]
     pu, pv, pw = rhs[stages, 3], rhs[stages, 4], rhs[stages, 5]
     for i in range(stages - 1, -1, -1):
+        a = transitions[i]
+        axx, axy, axu, axv = a[0, 0], a[0, 1], a[0, 3], a[0, 4]
+        ayx, ayy, ayu, ayv = a[1, 0], a[1, 1], a[1, 3], a[1, 4]
+        aux, auy, auu, auv = a[3, 0], a[3, 1], a[3, 3], a[3, 4]
+        avx, avy, avu, avv = a[4, 0], a[4, 1], a[4, 3], a[4, 4]
+        azz, azw, awz, aww = a[2, 2], a[2, 5], a[5, 2], a[5, 5]
         mx = axx * px + ayx * py + aux * pu + avx * pv
         my = axy * px + ayy * py + auy * pu + avy * pv
         mu = axu * px + ayu * py + auu * pu + avu * pv
@@ -511,6 +513,12 @@ def _step(transition, stages, work):
         u += du[i, 0]
         v += du[i, 1]
         w += du[i, 2]
+        a = transitions[i]
+        axx, axy, axu, axv = a[0, 0], a[0, 1], a[0, 3], a[0, 4]
+        ayx, ayy, ayu, ayv = a[1, 0], a[1, 1], a[1, 3], a[1, 4]
+        aux, auy, auu, auv = a[3, 0], a[3, 1], a[3, 3], a[3, 4]
+        avx, avy, avu, avv = a[4, 0], a[4, 1], a[4, 3], a[4, 4]
+        azz, azw, awz, aww = a[2, 2], a[2, 5], a[5, 2], a[5, 5]
         nx = axx * x + axy * y + axu * u + axv * v
         ny = ayx * x + ayy * y + ayu * u + ayv * v
         nu = aux * x + auy * y + auu * u + auv * v
@@ -522,7 +530,7 @@ def _step(transition, stages, work):
 
 
 @compiled_arithmetic
-def _largest_control_gradient(transition, stages, work):
+def _largest_control_gradient(transitions, stages, work):
     """Largest component of the gradient in the controls, for the gradients in the workspace."""
     costate = work.state_rhs[stages].copy()
     mapped = np.zeros(STATES)
@@ -531,7 +539,7 @@ def _largest_control_gradient(transition, stages, work):
         for k in range(STATES):
             total = 0.0
             for m in range(STATES):
-                total += transition[m, k] * costate[m]
+                total += transitions[i, m, k] * costate[m]
             mapped[k] = total
         for k in range(CONTROLS):
             largest = max(largest, abs(work.control_rhs[i, k] + mapped[3 + k]))
@@ -560,7 +568,7 @@ def solve(program, stages, start, work, tolerance, iteration_limit):
     -------
     Solution
     """
-    transition = program.transition
+    transitions = program.transitions
     x, u, dx, du = work.states, work.controls, work.state_steps, work.control_steps
     rows, boxes = work.rows, work.boxes
     limits, weights, values = rows[LIMIT], rows[WEIGHT], rows[VALUE]
@@ -573,11 +581,11 @@ def solve(program, stages, start, work, tolerance, iteration_limit):
     v, dv, push_control = u.reshape(-1), du.reshape(-1), work.control_rhs.reshape(-1)
 
     v[: CONTROLS * stages] = 0.0
-    roll_out(transition, start, u, stages, x)
+    roll_out(transitions, start, u, stages, x)
     on_states = _list_rows(program, stages, limits, weights)
     count = _gather(program, stages, x, u, values)
     _objective_gradient(program, stages, work)
-    scale = max(_largest_control_gradient(transition, stages, work), 1e-300)
+    scale = max(_largest_control_gradient(transitions, stages, work), 1e-300)
     mu = scale
     _start_rows(count, rows, mu)
     controls = CONTROLS * stages
@@ -608,10 +616,10 @@ def solve(program, stages, start, work, tolerance, iteration_limit):
             by_below[c] = 1.0 / below[c]
             curved[c] = upper[c] * by_above[c] + lower[c] * by_below[c]
         _assemble_curvature(program, stages, work)
-        _factor(transition, stages, work)
+        _factor(transitions, stages, work)
         _objective_gradient(program, stages, work)
         _scatter(program, stages, push, work.state_rhs, work.control_rhs)
-        _step(transition, stages, work)
+        _step(transitions, stages, work)
         _gather(program, stages, dx, du, moved)
         # four maxima side by side, none of which waits for another
         first, second, third, fourth = 0.0, 0.0, 0.0, 0.0
@@ -659,7 +667,7 @@ def solve(program, stages, start, work, tolerance, iteration_limit):
             push_control[c] += cu * by_above[c] - cl * by_below[c]
             dupper[c] = cu * by_above[c] - upper[c]
             dlower[c] = cl * by_below[c] - lower[c]
-        _step(transition, stages, work)
+        _step(transitions, stages, work)
         _gather(program, stages, dx, du, moved)
         first, second, third, fourth = 0.0, 0.0, 0.0, 0.0
         for r in range(count):

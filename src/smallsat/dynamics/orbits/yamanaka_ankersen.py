@@ -12,10 +12,15 @@ across it. The frame turns with the orbit, at a rate that varies. Any consistent
 
 import numpy as np
 
+from smallsat.dynamics.compiled import compiled
+
 # Newton's steps for Kepler's equation from Danby's start: six reach rounding for e = 0.99.
 KEPLER_STEPS = 10
+# Places of (x, y, vx, vy) in a state.
+IN_PLANE = (0, 1, 3, 4)
 
 
+@compiled
 def true_anomaly_after(true_anomaly: float, e: float, mean_angle: float) -> float:
     """True anomaly, rad, when the mean anomaly has grown by an angle, rad; it grows with it."""
     half = np.sqrt(1.0 - e * e)
@@ -27,7 +32,7 @@ def true_anomaly_after(true_anomaly: float, e: float, mean_angle: float) -> floa
     found = mean + 0.85 * e * np.sign(np.sin(mean))
     for _ in range(KEPLER_STEPS):
         found -= (found - e * np.sin(found) - mean) / (1.0 - e * np.cos(found))
-    return float(found + 2.0 * np.arctan2(share * np.sin(found), 1.0 - share * np.cos(found)))
+    return found + 2.0 * np.arctan2(share * np.sin(found), 1.0 - share * np.cos(found))
 
 
 def frame_rate(n: float, e: float, true_anomaly: float) -> float:
@@ -35,6 +40,7 @@ def frame_rate(n: float, e: float, true_anomaly: float) -> float:
     return float(n * (1.0 + e * np.cos(true_anomaly)) ** 2 / (1.0 - e * e) ** 1.5)
 
 
+@compiled
 def transition(n: float, e: float, true_anomaly: float, t: float) -> np.ndarray:
     """State transition (6, 6) over a duration from a true anomaly, rad; for e = 0 ``exp(A t)``.
 
@@ -50,18 +56,25 @@ def transition(n: float, e: float, true_anomaly: float, t: float) -> np.ndarray:
     in_plane = _fundamental(e, later, rate * t) @ np.linalg.inv(_fundamental(e, true_anomaly, 0.0))
     c, s = np.cos(later - true_anomaly), np.sin(later - true_anomaly)
     scaled = np.zeros((6, 6))
-    scaled[np.ix_([0, 1, 3, 4], [0, 1, 3, 4])] = in_plane
-    scaled[np.ix_([2, 5], [2, 5])] = [[c, s], [-s, c]]
+    for j in range(4):
+        for k in range(4):
+            scaled[IN_PLANE[j], IN_PLANE[k]] = in_plane[j, k]
+    scaled[2, 2], scaled[2, 5], scaled[5, 2], scaled[5, 5] = c, s, -s, c
     return np.linalg.inv(_scaling(rate, e, later)) @ scaled @ _scaling(rate, e, true_anomaly)
 
 
+@compiled
 def _scaling(rate: float, e: float, f: float) -> np.ndarray:
     """Matrix (6, 6) from a state to the position times rho and its derivative by f."""
     rho = 1.0 + e * np.cos(f)
-    eye = np.eye(3)
-    return np.block([[rho * eye, 0.0 * eye], [-e * np.sin(f) * eye, eye / (rate * rho)]])
+    matrix = np.zeros((6, 6))
+    for k in range(3):
+        matrix[k, k], matrix[3 + k, 3 + k] = rho, 1.0 / (rate * rho)
+        matrix[3 + k, k] = -e * np.sin(f)
+    return matrix
 
 
+@compiled
 def _fundamental(e: float, f: float, integral: float) -> np.ndarray:
     """Independent solutions, a column each, of (x, y, x', y'), shape (4, 4).
 

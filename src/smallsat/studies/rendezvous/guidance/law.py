@@ -52,6 +52,9 @@ SETTINGS = np.dtype(
         ("time_limit", float),
         ("burn_time", float),  # truth, as the drifts
         ("mean_motion", float),
+        ("elliptic", np.int64),  # prediction varies with the true anomaly, given for time zero
+        ("eccentricity", float),
+        ("true_anomaly", float),
         ("drifts_before", float, (3, 6, 6)),  # truth in metres: until a delayed control acts
         ("drifts_after", float, (3, 6, 6)),
         ("predictions_before", float, (3, 6, 6)),  # the law's own, to make up for the delay
@@ -69,7 +72,7 @@ AS_THEY_ARE = (
     "horizons", "sample_times", "control_bounds", "speed_bound", "axis", "rotation_rate", "port",
     "set_points", "keep_out", "overshoot", "plane_turn", "switches", "switch_distances",
     "set_point_time", "terminal_cone_time", "reference_moves", "time_limit",
-    "burn_time", "mean_motion", "feedback_bound", "cone_margin", "speed_margin",
+    "burn_time", "mean_motion", "true_anomaly", "feedback_bound", "cone_margin", "speed_margin",
 )  # fmt: skip
 
 
@@ -122,6 +125,9 @@ class Law:
         Whether a rotating reference has the velocity of its rotation.
     prediction
         Continuous matrix of the prediction model; ``None``: Clohessy-Wiltshire.
+    eccentricity, true_anomaly
+        Of the target's orbit, and where it is at time zero, rad, for a prediction by Yamanaka and
+        Ankersen; ``None``: by one matrix. The Riccati solution stays that of the one matrix.
     delay
         s from a step's start until its control acts.
     delay_known
@@ -165,6 +171,8 @@ class Law:
     terminal_cone_time: int = AT_HORIZON
     reference_moves: bool = True
     prediction: np.ndarray | None = None
+    eccentricity: float | None = None
+    true_anomaly: float = 0.0
     delay: float = 0.0
     delay_known: bool = False
     time_limit: float = 12000.0
@@ -246,6 +254,8 @@ def _fill(record: Any, law: Law) -> None:
         record["hard_weights"][0] = HARD_WEIGHT * law.horizons[0]
     if law.feedback is not None:
         record["has_tube"], record["feedback"] = 1, law.feedback
+    if law.eccentricity is not None:
+        record["elliptic"], record["eccentricity"] = 1, law.eccentricity
     record["plane_rate"] = law.plane_rate * law.mean_motion
     for name in AS_THEY_ARE:
         record[name] = getattr(law, name)

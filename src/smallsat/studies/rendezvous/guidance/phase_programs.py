@@ -13,6 +13,8 @@ Where the document's formulas disagree with each other or with its text, the tex
 import numpy as np
 
 from smallsat.dynamics.compiled import compiled
+from smallsat.dynamics.orbits.yamanaka_ankersen import transition as elliptic_transition
+from smallsat.dynamics.orbits.yamanaka_ankersen import true_anomaly_after
 from smallsat.optimal_control.riccati_interior_point import Program
 from smallsat.studies.rendezvous.guidance.law import (
     APPROACH,
@@ -33,7 +35,7 @@ START_TOLERANCE = 1e-6  # scaled
 def empty_program(stages):
     """Return a `Program` with room for any of up to that many stages."""
     return Program(
-        np.zeros((6, 6)),
+        np.zeros((stages, 6, 6)),
         np.zeros(6),
         np.zeros((6, 6)),
         np.zeros((stages + 1, 6)),
@@ -54,7 +56,7 @@ def empty_program(stages):
 def with_bounds(program, count):
     """Return the program with only its first `count` rows on components."""
     return Program(
-        program.transition,
+        program.transitions,
         program.state_hessian,
         program.terminal_hessian,
         program.state_gradient,
@@ -115,6 +117,7 @@ def write_program(law, phase, state, time, program):
         The program, and whether a constraint is violated at the start already.
     """
     one_norm = phase == RENDEZVOUS and law.norm_control_weights[0] > 0.0
+    _write_transitions(law, phase, time, program.transitions)
     _write_cost(law, phase, time, one_norm, program)
     if phase == RENDEZVOUS:
         outside = _write_keep_out(law, state, time, program)
@@ -127,12 +130,32 @@ def write_program(law, phase, state, time, program):
 
 
 @compiled
+def _write_transitions(law, phase, time, transitions):
+    """Write the model of each stage, (N, 6, 6): circular, or of an ellipse from where it is now."""
+    stages, ts = law.horizons[phase], law.sample_times[phase]
+    n, e, anomaly = law.mean_motion, law.eccentricity, law.true_anomaly
+    if law.elliptic != 0:
+        anomaly = true_anomaly_after(anomaly, e, n * time)
+    for i in range(stages):
+        if law.elliptic != 0:
+            step = elliptic_transition(n, e, anomaly, ts)
+            anomaly = true_anomaly_after(anomaly, e, n * ts)
+            for j in range(6):
+                for k in range(6):
+                    scale = law.scales[phase, k] / law.scales[phase, j]
+                    transitions[i, j, k] = step[j, k] * scale
+        else:
+            for j in range(6):
+                for k in range(6):
+                    transitions[i, j, k] = law.transitions[phase, j, k]
+
+
+@compiled
 def _write_cost(law, phase, time, one_norm, program):
-    """Write the model and the cost, quadratic or the far range's 1-norm, about the reference."""
+    """Write the cost, quadratic or the far range's 1-norm, about the reference."""
     stages = law.horizons[phase]
     for j in range(6):
         for k in range(6):
-            program.transition[j, k] = law.transitions[phase, j, k]
             program.terminal_hessian[j, k] = 0.0 if one_norm else law.terminal_hessians[phase, j, k]
         program.state_hessian[j] = 0.0 if one_norm else law.state_hessians[phase, j]
     for k in range(3):

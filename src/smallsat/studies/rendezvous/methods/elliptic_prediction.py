@@ -11,12 +11,15 @@ from collections.abc import Callable
 import numpy as np
 import pandas as pd
 
-from smallsat.dynamics.environment import egm96
 from smallsat.dynamics.orbits import clohessy_wiltshire, yamanaka_ankersen
-from smallsat.dynamics.orbits.kepler_orbits import Elements, state_of
 from smallsat.studies.rendezvous.configuration import Configuration
 from smallsat.studies.rendezvous.model.columns import STATE
-from smallsat.studies.rendezvous.model.environment import environment, orbit_radius
+from smallsat.studies.rendezvous.model.environment import (
+    central,
+    elliptic_mean_motion,
+    elliptic_target,
+    environment,
+)
 from smallsat.studies.rendezvous.model.truth import advance, pair_from_relative, relative_state
 from smallsat.studies.rendezvous.monte_carlo.cases import base
 from smallsat.studies.rendezvous.monte_carlo.initial_states import states_table
@@ -69,7 +72,7 @@ def errors(section: Configuration) -> pd.DataFrame:
     circular = base(section).mean_motion
     rows = []
     for e in settings.eccentricities:
-        n = circular * (1.0 - e) ** 1.5
+        n = elliptic_mean_motion(circular, e)
         true = np.array([motions(section, e, f, states) for f in anomalies])
         for name, transition in MODELS.items():
             predicted = np.array(
@@ -90,12 +93,9 @@ def motions(section: Configuration, e: float, anomaly: float, states: np.ndarray
 
     The target begins at a true anomaly, rad, of an orbit with eccentricity ``e``.
     """
-    circular, orbit = base(section).mean_motion, section.truth
-    central = orbit.with_(gravity_degree=0, gravity_order=0, density_factor=0.0)
-    field = environment(central, circular, section.spacecraft.mass_kg)
-    tilt, node = np.radians([orbit.inclination_deg, orbit.raan_deg])
-    elements = Elements(orbit_radius(circular) / (1.0 - e), e, tilt, node, 0.0, anomaly)
-    target = np.concatenate(state_of(elements, egm96.MU))
+    circular = base(section).mean_motion
+    field = environment(central(section.truth), circular, section.spacecraft.mass_kg)
+    target = elliptic_target(section.truth, circular, e, anomaly)
     idle, found = np.zeros(3), []
     for state in states:
         pair, passed = pair_from_relative(target, state), []

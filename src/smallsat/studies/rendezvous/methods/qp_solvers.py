@@ -119,18 +119,20 @@ def sparse_program(sample: Sample) -> SparseProgram:
             weights,
         ]
     )
-    a, b = program.transition, program.transition[:, 3:]
-    below = sparse.kron(sparse.eye(stages, k=-1), a)
+    moves = program.transitions[:stages]
+    below = sparse.lil_matrix((states, states))
+    for i in range(1, stages):
+        below[STATES * i : STATES * (i + 1), STATES * (i - 1) : STATES * i] = moves[i]
     equalities = sparse.hstack(
         [
-            -sparse.kron(sparse.eye(stages), b),
+            -sparse.block_diag([a[:, 3:] for a in moves]),
             sparse.eye(states) - below,
             sparse.csc_matrix((states, count)),
         ],
         "csc",
     )
     equal_to = np.zeros(states)
-    equal_to[:STATES] = a @ sample.start
+    equal_to[:STATES] = moves[0] @ sample.start
     inequalities = sparse.hstack([sparse.csc_matrix(rows), -sparse.eye(count)], "csc")
     free = np.full(states, np.inf)
     return SparseProgram(
@@ -231,10 +233,10 @@ def cost(sample: Sample, controls: np.ndarray) -> float:
     program, stages = sample.program, sample.stages
     u = np.clip(controls, -1.0, 1.0)
     states = [np.asarray(sample.start)]
-    for control in u:
+    for transition, control in zip(program.transitions, u, strict=False):
         moved = states[-1].copy()
         moved[3:] += control
-        states.append(program.transition @ moved)
+        states.append(transition @ moved)
     x = np.array(states)
     rows, limits, weights = row_list(program, stages)
     excess = np.maximum(rows @ np.concatenate([u.ravel(), x[1:].ravel()]) - limits, 0.0)

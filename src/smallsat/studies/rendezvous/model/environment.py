@@ -39,6 +39,29 @@ def target_state(settings: Truth, mean_motion: float) -> np.ndarray:
     return np.concatenate(state_of(elements, egm96.MU))
 
 
+def elliptic_target(
+    settings: Truth, circular: float, eccentricity: float, true_anomaly: float
+) -> np.ndarray:
+    """Inertial state (6,), m and m/s, of a target whose perigee is as high as a circular orbit.
+
+    ``circular`` is the mean motion of that orbit, rad/s; the perigee is in the node.
+    """
+    tilt, node = np.radians([settings.inclination_deg, settings.raan_deg])
+    semi_major = orbit_radius(circular) / (1.0 - eccentricity)
+    elements = Elements(semi_major, eccentricity, tilt, node, 0.0, true_anomaly)
+    return np.concatenate(state_of(elements, egm96.MU))
+
+
+def elliptic_mean_motion(circular: float, eccentricity: float) -> float:
+    """Mean motion, rad/s, of that target."""
+    return float(circular * (1.0 - eccentricity) ** 1.5)
+
+
+def central(settings: Truth) -> Truth:
+    """The truth with the Earth's central field alone."""
+    return settings.with_(gravity_degree=0, gravity_order=0, density_factor=0.0)
+
+
 def box(settings: Truth) -> np.ndarray:
     """Panels of a body, shape (6, 4): area, m^2, and outward normal, by the body's axes."""
     size = settings.body_size_m
