@@ -137,6 +137,19 @@ class Posterior(Part):
     steps: Annotated[Integer, Interval(ge=1, le=100000)]
 
 
+class AxesSearch(Part):
+    """The search for sets within the printed axes: rounds, each of so many sets and generations.
+
+    It begins with so many initial states; each round may take on more.
+    """
+
+    seed: Seed
+    rounds: Count
+    population: Annotated[Integer, Interval(ge=8, le=1000)]
+    generations: Generations
+    starts: Count
+
+
 class Inference(Part):
     """The search for what is not printed: its size, the errors it assumes, what it accepts."""
 
@@ -155,6 +168,7 @@ class Inference(Part):
     axis_error: Positive
     acceptable: Annotated[Number, Interval(ge=1)]
     posterior: Posterior
+    axes_search: AxesSearch
     ensemble: Ensemble
     bounds: Bounds
 
@@ -229,6 +243,28 @@ class Ablations(Part):
 
     plane_rates: Growing[Positive]
     corridor_deg: Annotated[Number, Gt(0), Lt(90)]
+
+
+class ImpulseBits(Part):
+    """Minimum impulse bits of the thrusters, and how many initial states are flown with each."""
+
+    bits_mN_s: Growing[NonNegative]
+    states: Count
+
+
+class Rotation(Part):
+    """Rates of the target's rotation, and how many initial states are flown with each."""
+
+    rates_rad_s: Growing[NonNegative]
+    states: Count
+
+
+class Orbits(Part):
+    """Elliptic orbits of the target, where on them manoeuvres begin, and from how many states."""
+
+    eccentricities: Growing[Fraction]
+    anomalies_deg: Several[Number]
+    states: Count
 
 
 class ThrustError(Part):
@@ -313,6 +349,9 @@ class Flown(Part):
     delay: Delay
     prediction: Prediction
     ablations: Ablations
+    impulse_bits: ImpulseBits
+    rotation: Rotation
+    orbits: Orbits
     robustness: Robustness
     passages: Passages
 

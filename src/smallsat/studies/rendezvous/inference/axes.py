@@ -94,22 +94,25 @@ def axes(section: Cases, starts: np.ndarray, ledger: Ledger) -> pd.DataFrame:
 
     A row an axis and end, ``least`` or ``most``: ``cell``, ``printed``, and for each of `READINGS`
     ``computed <r>`` and ``residual <r>``, zero within the axis, else in assumed errors of its
-    logarithm. A manoeuvre that does not end is at most as bad as `WORST_SHARE`.
+    logarithm. A manoeuvre that does not end is at most as bad as `WORST_SHARE`. ``start <r>`` is
+    the place among the starts of what ends there, or of what does not end; ``lost`` counts starts
+    from which the phase did not begin.
     """
     base = law(section)
-    begun, rows = starts, []
+    begun, places, rows = starts, np.arange(len(starts)), []
     for figure, (phase, horizon, sample_times, printed) in FIGURES.items():
         # The phase before, by the printed horizons and sample times.
         before = simulate([base], begun, (phase - 1, phase - 1))
-        begun = before.ends[before.docked, phase - 1]
+        begun, places = before.ends[before.docked, phase - 1], places[before.docked]
         limit = BEYOND * ledger.value(f"{printed['time_min']}/max").value * MINUTE
         flown = [
             simulate([_sampled(base, phase, horizon, time, limit)], begun, (phase, phase))
             for time in sample_times
             if len(begun)
         ]
-        rows += _rows(section, figure, phase, flown, printed, ledger)
-    return pd.DataFrame(rows)
+        rows += _rows(section, figure, phase, flown, places, printed, ledger)
+        lost = len(starts) - len(begun)
+    return pd.DataFrame(rows).assign(lost=lost)
 
 
 def _sampled(base: Law, phase: int, horizon: int, sample_time: float, limit: float) -> Law:
@@ -125,11 +128,14 @@ def _rows(
     figure: str,
     phase: int,
     flown: Sequence[Manoeuvres],
+    places: np.ndarray,
     printed: dict[str, str],
     ledger: Ledger,
 ) -> list[dict]:
     rows = []
     docked = all(bool(one.docked.all()) for one in flown) and len(flown) > 0
+    ended = np.concatenate([places[one.docked] for one in flown] or [places])
+    stalled = np.concatenate([places[~one.docked] for one in flown] or [places])
     for quantity, extreme, axis in _ends(printed, ledger):
         end = {"min": "least", "max": "most"}[extreme]
         row = {"kind": "axes", "cell": f"{figure} {quantity} {end}", "printed": axis}
@@ -143,6 +149,10 @@ def _rows(
                 miss = WORST_SHARE
             row[f"computed {reading}"] = value
             row[f"residual {reading}"] = float(min(miss, WORST_SHARE))
+            if end == "most" and len(stalled):
+                row[f"start {reading}"] = int(stalled[0])
+            elif len(data):
+                row[f"start {reading}"] = int(ended[getattr(data, f"arg{extreme}")()])
         rows.append(row)
     return rows
 

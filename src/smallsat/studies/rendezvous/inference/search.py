@@ -9,7 +9,7 @@ An inference explains what it was fitted to. Equal digits are no reproduction, a
 many parameters and readings as printed cells some agreement is to be had for nothing.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -17,7 +17,7 @@ import pandas as pd
 from scipy.optimize import differential_evolution
 
 from smallsat.evidence.ledger import Ledger
-from smallsat.studies.rendezvous.configuration import Cases
+from smallsat.studies.rendezvous.configuration import Bounds, Cases
 from smallsat.studies.rendezvous.inference.axes import axes, missed_axes
 from smallsat.studies.rendezvous.inference.misfit import (
     KINDS,
@@ -37,6 +37,17 @@ from smallsat.studies.rendezvous.simulation.delta_v import READINGS
 # Of a search's first sets, so many come from the long search.
 KEPT_SHARE = 0.5
 
+# Of parameter sets, to be made least: a number a set.
+Objective = Callable[[Sequence[ParameterSet]], np.ndarray]
+
+
+def parts_without_axes(sections: Sequence[Cases], ledger: Ledger) -> dict[str, pd.DataFrame]:
+    """Misfits of sets by `READINGS`, a row a set: ``all``, and its part of each kind but axes."""
+    table = residuals(sections, simulate_sets(sections), ledger)
+    sums = misfits(table)
+    kinds = {kind: misfits(table[table["kind"] == kind]).reindex(sums.index) for kind in KINDS[:-1]}
+    return {"all": sums, **kinds}
+
 
 def evaluate(
     section: Cases, sets: Sequence[ParameterSet], starts: np.ndarray, ledger: Ledger
@@ -50,9 +61,8 @@ def evaluate(
     they count as missed in all, so that no set gains by not being looked at.
     """
     sections = [one.put_into(section) for one in sets]
-    table = residuals(sections, simulate_sets(sections), ledger)
-    sums: Any = misfits(table)
-    kinds = {kind: misfits(table[table["kind"] == kind]).reindex(sums.index) for kind in KINDS[:-1]}
+    kinds: Any = parts_without_axes(sections, ledger)
+    sums = kinds["all"]
     rows: list[dict[str, Any]] = []
     for place, one in enumerate(sets):
         best = str(sums.loc[place].idxmin())
@@ -93,9 +103,47 @@ def search(
     """
     settings = section.inference
     reading, option = fixed_reading(name)
-    low, high = np.array([settings.bounds[number] for number in FITTED], dtype=float).T
-    random = np.random.default_rng([settings.seed, SEARCHES.index(name)])
     evaluated: list[pd.DataFrame] = []
+
+    def misfit(sets: Sequence[ParameterSet]) -> np.ndarray:
+        evaluated.append(evaluate(section, sets, starts, ledger))
+        return evaluated[-1]["misfit"].to_numpy()
+
+    known = [ParameterSet.configured(section), *_begin_with(kept, reading, option)]
+    evolve(
+        misfit, settings.bounds, known, settings.population, settings.generations,
+        np.random.default_rng([settings.seed, SEARCHES.index(name)]), {reading: option},
+    )  # fmt: skip
+    return pd.concat(evaluated, ignore_index=True).assign(search=name)
+
+
+def evolve(
+    objective: Objective,
+    bounds: Bounds,
+    known: Sequence[ParameterSet],
+    population: int,
+    generations: int,
+    random: np.random.Generator,
+    held: Mapping[str, Any],
+) -> None:
+    """Make an objective of parameter sets less by differential evolution.
+
+    Nothing is returned: what was evaluated is the objective's to keep.
+
+    Parameters
+    ----------
+    objective, bounds
+        Of sets, and of their numbers.
+    known
+        Sets to begin with, of which `KEPT_SHARE` of the population is taken; the others are random.
+    population, generations
+        Sets a generation, and generations after the first.
+    random
+        Source of the random numbers.
+    held
+        Readings that are held, with their options.
+    """
+    low, high = np.array([bounds[number] for number in FITTED], dtype=float).T
 
     def decoded(place: np.ndarray) -> ParameterSet:
         place = np.clip(place, 0.0, 1.0)
@@ -104,9 +152,7 @@ def search(
             question: options[min(int(part * len(options)), len(options) - 1)]
             for (question, options), part in zip(OPTIONS.items(), place[len(FITTED) :], strict=True)
         }
-        return ParameterSet(
-            dict(zip(FITTED, values.tolist(), strict=True)), {**readings, reading: option}
-        )
+        return ParameterSet(dict(zip(FITTED, values.tolist(), strict=True)), {**readings, **held})
 
     def encoded(one: ParameterSet) -> np.ndarray:
         numbers = (np.array([one.values[number] for number in FITTED]) - low) / (high - low)
@@ -116,22 +162,18 @@ def search(
         ]
         return np.clip(np.r_[numbers, picks], 0.0, 1.0)
 
-    def misfit(places: np.ndarray) -> np.ndarray:
-        """Misfits (sets,) of a population, shape (parameters, sets) as the optimiser has it."""
-        sets = [decoded(place) for place in np.atleast_2d(places.T)]
-        evaluated.append(evaluate(section, sets, starts, ledger))
-        return evaluated[-1]["misfit"].to_numpy()
+    def of_places(places: np.ndarray) -> np.ndarray:
+        """The objective of a population, shape (parameters, sets) as the optimiser has it."""
+        return objective([decoded(place) for place in np.atleast_2d(places.T)])
 
-    first = random.random((settings.population, len(FITTED) + len(OPTIONS)))
-    known = [ParameterSet.configured(section), *_begin_with(kept, reading, option)]
-    for place, one in enumerate(known[: round(KEPT_SHARE * settings.population)]):
+    first = random.random((population, len(FITTED) + len(OPTIONS)))
+    for place, one in enumerate(known[: round(KEPT_SHARE * population)]):
         first[place] = encoded(one)
     differential_evolution(
-        misfit, [(0.0, 1.0)] * first.shape[1], init=first, maxiter=settings.generations,
+        of_places, [(0.0, 1.0)] * first.shape[1], init=first, maxiter=generations,
         seed=random, polish=False, vectorized=True, updating="deferred", tol=0.0,
         mutation=(0.4, 0.9), recombination=0.8,
     )  # fmt: skip
-    return pd.concat(evaluated, ignore_index=True).assign(search=name)
 
 
 def _begin_with(kept: pd.DataFrame, reading: str, option: Any) -> list[ParameterSet]:
