@@ -19,9 +19,12 @@ GROUPS = {
     "robustness": [DISTURBED],
     "passages": [DISTURBED],
     "ablations": [INITIAL, DISTURBED, DOMAIN],
+    "impulse-bits": [DISTURBED],
+    "rotation": [INITIAL, DOMAIN],
+    "orbits": [DISTURBED],
 }
 # Groups that no claim rests on are flown with the configured set alone.
-NO_MEMBER_HAS = ("passages",)
+NO_MEMBER_HAS = ("passages", "impulse-bits", "rotation", "orbits")
 # What the summaries compare; ablations are for the claims alone.
 SUMMARISED = [f"studies/{group}.parquet" for group in GROUPS if group != "ablations"]
 FLIGHTS = ["flights.parquet", "paths.parquet", "phases.csv", "truth.csv"]
@@ -75,6 +78,17 @@ step(
     published=["values.csv"],
     accepted=["posterior.csv"],
     takes=Cases,
+)
+# Whether any set holds the printed axes was searched once; builds take what is tracked of it.
+step(
+    "rendezvous",
+    "axes_search",
+    reads=[INITIAL],
+    makes=["searched-axes.csv"],
+    published=["values.csv"],
+    accepted=["sets.csv"],
+    takes=Cases,
+    aside=True,
 )
 step(
     "rendezvous",
@@ -146,6 +160,9 @@ step(
             "bounce",
             "deviations",
             "infeasible",
+            "impulse-bits",
+            "rotation",
+            "orbits",
             "thrust-readings",
             "thrust-errors",
         )

@@ -58,7 +58,7 @@ def test_ledger_of_the_nonlinear_motion_closes(section, starts, actuation):
     for time, state, command in zip(steps.time, steps.state, steps.impulse, strict=True):
         np.testing.assert_array_equal(state, relative_state(pair))
         if actuation == BURNS:
-            pulse_on_times(command, motion.mass, motion.force, 0.0, on_times)
+            pulse_on_times(command, motion.mass, motion.force, 0.0, 0.0, on_times)
             thrust_acceleration(command, motion.mass, motion.force, burn)
         else:
             pair = pair_from_relative(pair[0], state + np.concatenate([np.zeros(3), command]))

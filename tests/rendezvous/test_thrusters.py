@@ -13,9 +13,9 @@ START = np.array([140.0, -1580.0, 60.0, -0.90, -0.32, 0.0])
 commands = st.tuples(*[st.floats(-0.2, 0.2)] * 3).map(np.array)
 
 
-def pulses(delta_v, minimum=0.0):
+def pulses(delta_v, minimum=0.0, flown_from=0.0):
     on_times, burn = np.empty(3), np.empty(3)
-    pulse_on_times(delta_v, MASS, FORCE, minimum, on_times)
+    pulse_on_times(delta_v, MASS, FORCE, minimum, flown_from, on_times)
     thrust_acceleration(delta_v, MASS, FORCE, burn)
     return on_times, burn
 
@@ -44,10 +44,20 @@ def test_largest_controls_are_five_seconds_and_one():
 @given(commands, st.floats(0.0, 1.0))
 def test_momentum_is_what_was_commanded_or_nothing(delta_v, minimum):
     """On-time times acceleration is the command, to rounding, from the minimum impulse bit on."""
-    on_times, burn = pulses(delta_v, minimum)
+    on_times, burn = pulses(delta_v, minimum, minimum)
     needed = MASS * abs(delta_v) / FORCE
     impulse = np.where(needed >= minimum, delta_v, 0.0)
     np.testing.assert_allclose(on_times * burn, impulse, rtol=1e-15, atol=0)
+    assert np.all((on_times == 0.0) | (on_times >= minimum))
+
+
+@given(commands, st.floats(0.0, 1.0))
+def test_rounded_momentum_is_off_by_half_a_bit_at_most(delta_v, minimum):
+    """Above the bit it is what was commanded, below the nearer of nothing and the bit."""
+    on_times, burn = pulses(delta_v, minimum, 0.5 * minimum)
+    needed, bit = MASS * abs(delta_v) / FORCE, FORCE * minimum / MASS
+    off = np.abs(on_times * burn - delta_v)
+    assert np.all(off <= np.where(needed >= minimum, 1e-15, 0.5 * bit * (1.0 + 1e-12)))
     assert np.all((on_times == 0.0) | (on_times >= minimum))
 
 

@@ -1,17 +1,22 @@
-"""Figures of what the document names and does not do: elliptic prediction, and a robust tube.
+"""Figures of what the document names and does not do.
+
+Elliptic prediction, a robust tube, and sweeps of impulse bits, rotation rates and orbits.
 
 Each function returns the figure and the table of exactly what it draws.
 """
 
 from collections.abc import Mapping
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
 from matplotlib.pyplot import subplots
+from matplotlib.ticker import NullLocator
 
 from smallsat.drawing.figure import Drawing
 from smallsat.drawing.style import BLACK, BLUE, GREY, ORANGE, VERMILION
 from smallsat.dynamics.units import MINUTE
+from smallsat.studies.rendezvous.figures.sensitivity import log_axis
 from smallsat.studies.rendezvous.monte_carlo.cases import AS_DOCUMENTED, TUBE
 
 MODEL_STYLES = (
@@ -19,6 +24,68 @@ MODEL_STYLES = (
     {"color": ORANGE, "ls": "--", "marker": "s"},
     {"color": BLUE, "ls": "-", "marker": "o"},
 )
+
+
+class Sweep(NamedTuple):
+    """How a table of `smallsat.studies.rendezvous.monte_carlo.swept` is drawn.
+
+    Attributes
+    ----------
+    label
+        Of the swept value.
+    linear_to
+        Up to which value the axis is linear; beyond, it is logarithmic. ``None``: linear.
+    scope
+        Of delta-v and time: ``docking`` or ``whole``.
+    """
+
+    label: str
+    linear_to: float | None
+    scope: str
+
+
+SWEEPS = {
+    "impulse-bits": Sweep("minimum impulse bit [mN s]", 5.0, "docking"),
+    "rotation": Sweep("target's rate [rad/s]", None, "docking"),
+    "orbits": Sweep("eccentricity", 0.01, "whole"),
+}
+SCOPE_WORDS = {"docking": "docking", "whole": "whole manoeuvre"}
+SWEPT_STYLES = [
+    {"color": colour, "ls": line, "marker": marker}
+    for colour in (BLUE, ORANGE, VERMILION)
+    for line, marker in (("-", "o"), ("--", "s"))
+]
+
+
+def swept(table: pd.DataFrame, drawn: Sweep) -> Drawing:
+    """Median delta-v and time, steps without a solution and what docks, over what is swept."""
+    scope, words = drawn.scope, SCOPE_WORDS[drawn.scope]
+    panels = {
+        f"{scope}_delta_v_median_m_s": rf"$\Delta v$, {words} [m/s]",
+        f"{scope}_time_median_min": f"time, {words} [min]",
+        f"{scope}_unsolvable_pct": "steps without solution [%]",
+        "docked_pct": "manoeuvres that dock [%]",
+    }
+    figure, grid = subplots(2, 2, figsize=(7.0, 4.6), sharex=True)
+    variants, values = table["variant"].unique(), table["value"].unique()
+    styles = SWEPT_STYLES if len(variants) > 2 else SWEPT_STYLES[:: len(SWEPT_STYLES) - 1]
+    for panel, (column, label) in zip(grid.flat, panels.items(), strict=True):
+        for variant, style in zip(variants, styles, strict=False):
+            one = table[table["variant"] == variant]
+            panel.plot(one["value"], one[column], ms=3.5, lw=1.1, label=variant, **style)
+        if drawn.linear_to:
+            panel.set_xscale("symlog", linthresh=drawn.linear_to)
+            panel.set_xticks(values, [f"{value:g}" for value in values])
+            panel.xaxis.set_minor_locator(NullLocator())
+        panel.set(ylabel=label)
+    for panel, column in zip(grid[0], panels, strict=False):
+        log_axis(panel, table[column].min(), table[column].max())
+    grid[1, 1].set_ylim(-3.0, 103.0)
+    for panel in grid[-1]:
+        panel.set_xlabel(drawn.label)
+    handles, labels = grid[0, 0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=3, fontsize=7)
+    return figure, table
 
 
 def elliptic(table: pd.DataFrame, horizons: Mapping[str, float]) -> Drawing:

@@ -192,7 +192,7 @@ def summary(sweeps: dict[str, tuple[pd.DataFrame, Sequence[int], Sequence[float]
                 panel.vlines(x, found[:, 1], found[:, 3], color=colour, lw=2.8, alpha=0.45)
                 panel.plot(x, found[:, 2], "o", ms=2.6, color=colour, label=f"N {n}")
             panel.set_xticks(positions_, [f"{t:g}" for t in sample_times])
-            _log_axis(panel, low, high)
+            log_axis(panel, low, high)
             panel.tick_params(labelsize=7)
             panel.grid(axis="x", visible=False)
         line[0].set_title(f"{phase} phase", loc="left", fontweight="bold")
@@ -207,7 +207,7 @@ def summary(sweeps: dict[str, tuple[pd.DataFrame, Sequence[int], Sequence[float]
     return figure, pd.DataFrame(rows)
 
 
-def _log_axis(axes: Axes, low: float, high: float) -> None:
+def log_axis(axes: Axes, low: float, high: float) -> None:
     """A logarithmic axis over the data, with ticks that are read as numbers."""
     if not low < high:
         return

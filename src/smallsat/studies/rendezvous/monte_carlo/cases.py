@@ -13,13 +13,18 @@ import numpy as np
 from smallsat.dynamics.units import MINUTE
 from smallsat.studies.rendezvous.configuration import MonteCarlo
 from smallsat.studies.rendezvous.guidance.law import Law, in_phase
-from smallsat.studies.rendezvous.model.environment import orbit_radius
+from smallsat.studies.rendezvous.model.environment import (
+    central,
+    elliptic_mean_motion,
+    elliptic_target,
+    orbit_radius,
+)
 from smallsat.studies.rendezvous.model.prediction_j2 import schweighart_sedwick
 from smallsat.studies.rendezvous.monte_carlo.tubes import flown_tube, path_law
 from smallsat.studies.rendezvous.parameters import STUDY_PHASES as PHASES
 from smallsat.studies.rendezvous.parameters import law
-from smallsat.studies.rendezvous.simulation.disturbances import disturbed_motion
-from smallsat.studies.rendezvous.simulation.motion import NonlinearMotion
+from smallsat.studies.rendezvous.simulation.disturbances import disturbed_motion, nonlinear_motion
+from smallsat.studies.rendezvous.simulation.motion import COMMANDED, NonlinearMotion
 
 # Names that others look for.
 BASELINE, NO_SET_POINT, LP = "baseline", "no set point", "LP"
@@ -29,6 +34,7 @@ NO_PENALTY, NO_ZONE, NO_REFERENCE = "no terminal penalty", "no zone", "no refere
 NO_SET_POINT_NO_ZONE = "no set point, no zone"
 LP_DISTURBED, LP_UNDISTURBED = "LP, disturbed", "LP, undisturbed"
 CLOHESSY_WILTSHIRE, SCHWEIGHART_SEDWICK = "Clohessy-Wiltshire", "Schweighart-Sedwick"
+YAMANAKA_ANKERSEN = "Yamanaka-Ankersen"
 
 
 @dataclass(frozen=True)
@@ -47,6 +53,8 @@ class Case:
         What the law guides; ``None``: the linear motion that it predicts.
     runs
         How many manoeuvres begin at each initial state.
+    states
+        How many of the initial states, the first ones; ``None``: all.
     """
 
     name: str
@@ -54,6 +62,7 @@ class Case:
     phases: tuple[int, int] = (0, 2)
     motion: NonlinearMotion | None = None
     runs: int = 1
+    states: int | None = None
 
 
 def sweep_case(horizon: int, sample_time: float) -> str:
@@ -99,6 +108,21 @@ def planes_case(rate: float) -> str:
 def corridor_case(sample_time: float) -> str:
     """Name of a docking without its corridor at a sample time."""
     return f"no corridor, Ts {sample_time:g} s"
+
+
+def bit_case(thrust: str, treatment: str, bit: float) -> str:
+    """Name of a case with a minimum impulse bit, mN s, by one of `THRUSTS` and `TREATMENTS`."""
+    return f"{thrust}, bit {bit:g} mN s" + f", {treatment}" * (bit > 0.0)
+
+
+def rotation_case(extent: str, rate: float) -> str:
+    """Name of a case with a rotating target, rad/s, over one of `EXTENTS`."""
+    return f"{extent}, {rate:g} rad/s"
+
+
+def orbit_case(model: str, eccentricity: float, anomaly: float) -> str:
+    """Name of a case with a prediction model, by the orbit and where it begins, deg."""
+    return f"{model}, e {eccentricity:g}, from {anomaly:g} deg"
 
 
 def base(section: MonteCarlo, case: str = "v-bar") -> Law:
@@ -269,6 +293,75 @@ def _ablations(section: MonteCarlo) -> list[Case]:
     return found
 
 
+# How thrust acts where bits are looked at: without disturbances, by impulses or by burns from each
+# step's start, or by impulses with the disturbances of chapter 5.
+THRUSTS: dict[str, dict[str, bool]] = {
+    "impulses": {"thrust_error": False, "measurement_error": False},
+    "burns": {"thrust_error": False, "measurement_error": False, "burns": True},
+    "disturbed": {},
+}
+# From which part of the bit on a smaller impulse is raised to it; what is less is not flown.
+TREATMENTS = {"left out": 1.0, "rounded": 0.5}
+
+
+def _impulse_bits(section: MonteCarlo) -> list[Case]:
+    """Thrusters that are on or off, for a least time, which Eq. 2.6 names and does not print."""
+    law, settings, found = base(section), section.studies.impulse_bits, dict[str, Case]()
+    for thrust, changes in THRUSTS.items():
+        motion = disturbed_motion(section, law, **changes)
+        for bit in settings.bits_mN_s:
+            on_time = 1e-3 * bit / motion.force
+            for treatment, share in TREATMENTS.items():
+                name = bit_case(thrust, treatment, bit)
+                own = motion._replace(minimum_on_time=on_time, flown_from=share * on_time)
+                found[name] = Case(name, law, motion=own, states=settings.states)
+    return list(found.values())
+
+
+# Phases that are flown with a rotating target: all, or the last one from where the baseline, whose
+# target rests, ended the one before.
+EXTENTS = {"all phases": (0, 2), "docking alone": (2, 2)}
+
+
+def rotation_rates(section: MonteCarlo) -> list[float]:
+    """Rates of the target's rotation that are flown, rad/s: the configured sweep and Case 3's."""
+    own = abs(section.inferred.rotation_rate_rad_s)
+    return sorted({*section.studies.rotation.rates_rad_s, own})
+
+
+def _rotation(section: MonteCarlo) -> list[Case]:
+    """Case 3 of chapter 3 with other rates, the way that the configured one turns."""
+    law, states = base(section, "rotating"), section.studies.rotation.states
+    way = -1.0 if law.rotation_rate < 0.0 else 1.0
+    return [
+        Case(
+            rotation_case(extent, rate),
+            law.with_(rotation_rate=way * rate),
+            phases,
+            states=states,
+        )
+        for extent, phases in EXTENTS.items()
+        for rate in rotation_rates(section)
+    ]
+
+
+def _orbits(section: MonteCarlo) -> list[Case]:
+    """Section 2.1.1: a target on an ellipse in the central field, and what the law predicts by."""
+    settings, circular, found = section.studies.orbits, base(section), list[Case]()
+    around = section.with_(truth=central(section.truth))
+    for e in settings.eccentricities:
+        law = circular.with_(mean_motion=elliptic_mean_motion(circular.mean_motion, e))
+        for anomaly in settings.anomalies_deg:
+            begun = float(np.radians(anomaly))
+            target = elliptic_target(section.truth, circular.mean_motion, e, begun)
+            motion = nonlinear_motion(around, circular, COMMANDED)._replace(target=target)
+            elliptic = law.with_(eccentricity=e, true_anomaly=begun)
+            for model, own in ((CLOHESSY_WILTSHIRE, law), (YAMANAKA_ANKERSEN, elliptic)):
+                name = orbit_case(model, e, anomaly)
+                found.append(Case(name, own, motion=motion, states=settings.states))
+    return found
+
+
 # Each group is one table of results, made in shards.
 GROUPS: dict[str, Callable[[MonteCarlo], list[Case]]] = {
     "domain": _domain,
@@ -281,6 +374,9 @@ GROUPS: dict[str, Callable[[MonteCarlo], list[Case]]] = {
     "robustness": _robustness,
     "passages": _passages,
     "ablations": _ablations,
+    "impulse-bits": _impulse_bits,
+    "rotation": _rotation,
+    "orbits": _orbits,
 }
 
 

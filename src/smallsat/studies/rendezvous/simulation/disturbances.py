@@ -41,6 +41,7 @@ def nonlinear_motion(section: Flight, law: Law, actuation: int) -> NonlinearMoti
         mass=craft.mass_kg,
         force=craft.thruster_N,
         minimum_on_time=0.0,
+        flown_from=0.0,
         actuation=actuation,
         error_start=np.zeros((2, 2)),
         error_transitions=np.zeros((3, 2, 2)),
@@ -77,6 +78,7 @@ def disturbed_motion(
     matrix = rate_matrix(law.mean_motion) if law.prediction is None else law.prediction
     return nonlinear_motion(section, law, BURNS if burns else IMPULSES)._replace(
         minimum_on_time=table.minimum_on_time_s,
+        flown_from=table.minimum_on_time_s,
         error_start=scale * stationary_factor(noise, reading),
         error_transitions=np.stack([one.transition for one in steps]),
         error_factors=scale * np.stack([one.factor for one in steps]),

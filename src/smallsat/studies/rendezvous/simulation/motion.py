@@ -39,8 +39,9 @@ class NonlinearMotion(NamedTuple):
     environment, target
         The Earth and the bodies, see `smallsat.studies.rendezvous.model.truth`; the target's
         inertial state (6,) at time zero.
-    mass, force, minimum_on_time
-        Mass of the chaser, force of a thruster, least time of a pulse.
+    mass, force, minimum_on_time, flown_from
+        Mass of the chaser, force of a thruster, least time of a pulse, and the time from which on a
+        shorter one is lengthened to it.
     actuation
         `COMMANDED`, `IMPULSES` or `BURNS`.
     error_start, error_transitions, error_factors
@@ -64,6 +65,7 @@ class NonlinearMotion(NamedTuple):
     mass: float
     force: float
     minimum_on_time: float
+    flown_from: float
     actuation: int
     error_start: np.ndarray
     error_transitions: np.ndarray
@@ -153,7 +155,10 @@ def push(law, motion, pair, command, error, longest, burn, on_times, applied):
         add_burns(law.burn_time, law.mean_motion, applied, pair[1])
     else:
         if motion.actuation != COMMANDED:
-            pulse_on_times(command, motion.mass, motion.force, motion.minimum_on_time, on_times)
+            pulse_on_times(
+                command, motion.mass, motion.force, motion.minimum_on_time, motion.flown_from,
+                on_times,
+            )  # fmt: skip
             limited = min(max(error, ERROR_RANGE[0]), ERROR_RANGE[1])
             thrust_acceleration(command, motion.mass, (1.0 + limited) * motion.force, burn)
             for k in range(3):

@@ -12,7 +12,7 @@ from smallsat.studies.rendezvous.steps import constraints, flights, initial_stat
 from smallsat.studies.rendezvous.steps.manoeuvres import starts
 
 # Groups that no claim of the document rests on.
-LEFT_OUT = ("passages",)
+LEFT_OUT = ("passages", "impulse-bits", "rotation", "orbits")
 
 
 def run(step: Step[Configuration]) -> Tables:

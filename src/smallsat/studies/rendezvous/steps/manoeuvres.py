@@ -37,5 +37,5 @@ def starts(case: Case, table_of: Callable[[str], pd.DataFrame]) -> pd.DataFrame:
         ended = (flown["case"] == BASELINE) & (flown["end_phase"] > case.phases[0])
         table = flown.loc[ended, ["sample", *before]]
         table = table.rename(columns=dict(zip(before, STATE, strict=True)))
-    runs = [table.assign(run=np.int32(run)) for run in range(case.runs)]
+    runs = [table.iloc[: case.states].assign(run=np.int32(run)) for run in range(case.runs)]
     return pd.concat(runs, ignore_index=True)

@@ -1,10 +1,10 @@
-"""What the variants of the manoeuvres change, and what the docking distance decides."""
+"""What the variants and sweeps change, and what the docking distance decides."""
 
 from smallsat.dynamics.units import HOUR
 from smallsat.step import Step, Tables
 from smallsat.studies.rendezvous.configuration import MonteCarlo
 from smallsat.studies.rendezvous.model.actuation_noise import readings_table, sampling
-from smallsat.studies.rendezvous.monte_carlo import summaries
+from smallsat.studies.rendezvous.monte_carlo import summaries, swept
 from smallsat.studies.rendezvous.simulation.disturbances import thrust_noise
 
 # Duration, step and number of the sample paths in Figure 5.1.
@@ -21,6 +21,9 @@ def run(step: Step[MonteCarlo]) -> Tables:
         "bounce": summaries.bounce(folder),
         "deviations": summaries.deviations(folder),
         "infeasible": summaries.infeasible(folder),
+        "impulse-bits": swept.impulse_bits(section, folder),
+        "rotation": swept.rotation(section, folder),
+        "orbits": swept.orbits(section, folder),
         "thrust-readings": readings_table(noise),
         "thrust-errors": sampling(noise, reading, PATH_S, PATH_STEP_S, PATHS, robustness.seed),
     }
