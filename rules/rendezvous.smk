@@ -92,6 +92,15 @@ step(
 )
 step(
     "rendezvous",
+    "axes",
+    reads=[INITIAL],
+    makes=["axes-search.csv", "axes-ends.csv", "axes-sets.csv"],
+    published=["values.csv"],
+    accepted=["axes-search.csv"],
+    takes=Cases,
+)
+step(
+    "rendezvous",
     "inference",
     reads=[INITIAL, "posterior.csv"] + [f"search-{search}.parquet" for search in SEARCHES],
     makes=INFERRED,

@@ -4,8 +4,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from smallsat.studies.rendezvous.inference import posterior
+from smallsat.studies.rendezvous.inference import axes_search, posterior
 from smallsat.studies.rendezvous.inference.axes import axes, missed_axes
+from smallsat.studies.rendezvous.inference.axes_held import CONFIGURED, FOUND, compared
 from smallsat.studies.rendezvous.inference.misfit import (
     WORST_SHARE,
     misfits,
@@ -228,6 +229,61 @@ def test_a_search_can_be_repeated_and_holds_its_reading(small, starts, ledger):
     held = ParameterSet(one.values, {**one.readings, reading: option})
     own = evaluate(small, [held], starts, printed)["misfit"].iloc[0]
     assert first["misfit"].min() <= own * (1 + 1e-6)
+
+
+def test_what_is_lost_before_an_axis_misses_all_of_them(section, starts, ledger):
+    """The excess is the sum of squares; no start of which nothing is seen makes it less."""
+    printed = ledger("rendezvous")
+    found = axes(section, starts, printed)
+    assert (found["lost"] == 0).all()
+    squares = (found["residual 2-norm"] ** 2).sum()
+    assert axes_search.excesses(found, printed)["2-norm"] == pytest.approx(squares)
+    lost = axes_search.excesses(found.assign(lost=1), printed)
+    assert lost.to_numpy() == pytest.approx(missed_axes(printed))
+
+
+def test_the_ends_of_the_axes_name_their_starts(section, starts, ledger):
+    """Flown alone, the start that is named gives the same end."""
+    printed = ledger("rendezvous")
+    found = axes(section, starts, printed).set_index("cell")
+    for cell in ("Figure 4.7 delta_v_m_s most", "Figure 4.10 time_min least"):
+        place = int(found.loc[cell, "start 2-norm"])
+        alone = axes(section, starts[[place]], printed).set_index("cell")
+        assert alone.loc[cell, "computed 2-norm"] == found.loc[cell, "computed 2-norm"]
+
+
+@pytest.fixture(scope="module")
+def searched(section, starts, ledger):
+    """Two rounds, of which the first looks at one start; made twice."""
+    size = section.inference.axes_search.with_(rounds=2, population=8, generations=0, starts=1)
+    small = section.with_(inference=section.inference.with_(axes_search=size))
+    kept_sets = pd.read_csv("data/accepted/rendezvous/sets.csv").tail(2)
+    printed = ledger("rendezvous")
+    return [axes_search.search_axes(small, kept_sets, starts, printed) for _ in range(2)]
+
+
+def test_the_search_for_the_axes_can_be_repeated_and_takes_starts_on(searched, section):
+    """Seeded; sets within the axes have a misfit and others none; states beyond are looked at."""
+    first, second = searched
+    pd.testing.assert_frame_equal(first, second)
+    assert (first["axes_of_all"] >= first["axes"] - 1e-12).all()
+    assert (first["misfit"].notna() == (first["axes"] == 0.0)).all()
+    assert list(first["starts"]) == [1, 1 + (first["axes_of_all"].iloc[0] > 0.0)]
+    low, high = section.inference.bounds.keep_out_m
+    assert first["keep_out_m"].between(low, high).all()
+
+
+def test_the_found_set_is_held_against_the_axes_and_the_rest(searched, section, starts, ledger):
+    """The round with the least excess from all states; its misfit is that of its parts."""
+    printed = ledger("rendezvous")
+    tables = compared(section, searched[0], starts, printed)
+    sets = tables["axes-sets"].set_index("set")
+    assert sets.loc[FOUND, "axes"] == pytest.approx(searched[0]["axes_of_all"].min())
+    parts = sets[["cell", "feasibility", "text"]].sum(axis=1)
+    assert sets["misfit"].to_numpy() == pytest.approx(parts.to_numpy())
+    own = axes(section, starts, printed)
+    reading = section.inferred.readings.delta_v
+    np.testing.assert_array_equal(tables["axes-ends"][CONFIGURED], own[f"computed {reading}"])
 
 
 def made_up(section, count=3000):
