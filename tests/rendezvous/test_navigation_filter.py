@@ -193,3 +193,16 @@ def test_prediction_is_the_textbook_one():
     predict(estimate, covariance, delta_v, matrix, h, MODEL)
     np.testing.assert_allclose(estimate, state, rtol=1e-12)
     np.testing.assert_allclose(covariance, expected, rtol=1e-11, atol=1e-16)
+
+
+def test_measurements_without_error_are_the_estimate():
+    """Position alone determines the velocity there: nothing is divided by what is left, zero."""
+    model = MODEL._replace(position_error=0.0, velocity_error=0.0)
+    estimate, covariance = np.zeros(6), np.empty((6, 6))
+    begin(model, covariance)
+    for number in range(1, 4):
+        predict(estimate, covariance, np.zeros(3), np.eye(6), 5.0, model)
+        measured = 0.1 * number * np.arange(1.0, 7.0)
+        update(estimate, covariance, measured, model)
+        assert estimate == pytest.approx(measured, abs=1e-12)
+        assert np.isfinite(covariance).all()

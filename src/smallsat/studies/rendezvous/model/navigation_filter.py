@@ -12,6 +12,9 @@ import numpy as np
 
 from smallsat.dynamics.compiled import compiled
 
+# Of a variance before any axis is measured: less than this share of it is rounding.
+ROUNDING = 1e-12
+
 
 class FilterModel(NamedTuple):
     """What the filter takes its errors to be, each a standard deviation.
@@ -95,12 +98,20 @@ def predict(estimate, covariance, delta_v, transition, duration, model):
 
 @compiled
 def update(estimate, covariance, measurement, model):
-    """Correct estimate (6,) and covariance (6, 6) by a measurement (6,), in place."""
-    gain = np.empty(6)
+    """Correct estimate (6,) and covariance (6, 6) by a measurement (6,), in place.
+
+    What the measurement of another axis has determined already, which measurements without error
+    do, is taken as measured.
+    """
+    gain, prior = np.empty(6), np.diag(covariance).copy()
     for axis in range(6):
         noise = model.position_error**2 if axis < 3 else model.velocity_error**2
         innovation = measurement[axis] - estimate[axis]
-        scale = 1.0 / (covariance[axis, axis] + noise)
+        variance = covariance[axis, axis] + noise
+        if variance <= ROUNDING * prior[axis]:
+            estimate[axis] = measurement[axis]
+            continue
+        scale = 1.0 / variance
         for i in range(6):
             gain[i] = covariance[i, axis]
         for i in range(6):
