@@ -29,10 +29,10 @@ $(VENV)/installed: requirements.lock pyproject.toml
 	$(PIP) --no-deps --no-build-isolation --editable .
 	@printf '%s' "$(CURDIR)" > $@
 
-# The published-value tests read verdicts of their own, in runs/tests/; Snakemake makes them first,
+# The tests read results and verdicts of their own, in runs/tests/; Snakemake makes them first,
 # and each of its jobs notes the files that it opens.
 test: $(VENV)/installed
-	@SMALLSAT_OPENED=$(CURDIR)/runs/tests/opened snakemake verdicts --configfile config/tests.yaml
+	@SMALLSAT_OPENED=$(CURDIR)/runs/tests/opened snakemake results --configfile config/tests.yaml
 	@python -m pytest -n 2 --dist loadfile --cov --cov-report=term --cov-report=html
 
 # The web site of the tests' run in Debian's chromium, driven by what requirements.browser.lock adds.

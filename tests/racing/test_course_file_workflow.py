@@ -37,6 +37,8 @@ READERS = {
     "racing_variants",
     "racing_simple_guesses",
     "racing_propellant",
+    "racing_weighted_misses",
+    "racing_drifting_rings",
     "racing_checks",
     "racing_dynamic_programming",
     "racing_random_courses_1_of_2",

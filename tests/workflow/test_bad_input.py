@@ -42,7 +42,10 @@ def test_a_setting_that_is_none(project):
     ("target", "words"),
     [
         ("trasnfer", ("trasnfer", "transfer, mars")),
-        ("figures/transfer/fig-99.svg", ("fig-99", "fig-01.svg")),
+        (
+            "figures/transfer/fig-99.svg",
+            ("fig-99", "did you mean 'figures/transfer/fig-"),
+        ),
         ("data/results/transfer/tables/table-9.csv", ("table-9", "table-4.csv")),
     ],
 )

@@ -37,7 +37,7 @@ TOLERANCE = 1e-13
 FLOOR = 100 * TOLERANCE
 
 # Degrees of shooting's control and collocation points whose order in the intervals is measured.
-INTERVALS = (8, 16, 32, 64, 128, 256)
+INTERVALS = tuple(2**power for power in range(3, 9))
 SHOOTING_DEGREES = (0, 1, 2)
 MESHES: tuple[tuple[Points, int], ...] = (
     ("legendre", 1),
