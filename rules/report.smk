@@ -3,11 +3,15 @@
 # of its own, for a what-if that leaves the others as they are.
 TEMPLATES = [
     project(path.relative_to(ROOT))
-    for folder in ("parts", "chapters", "summaries")
+    for folder in ("parts", "chapters", "summaries", "pipeline")
     for path in sorted((ROOT / "report" / folder).glob("*.typ"))
 ] + [
     project(path)
     for path in ("report/style.css", "report/references.yaml", "CITATION.cff", "requirements.lock")
+] + [
+    # What the last chapter shows.
+    project(path.relative_to(ROOT))
+    for path in sorted((ROOT / "data/accepted/pipeline").glob("*.csv"))
 ]
 TIMINGS = [path for study in STUDIES for path in MADE[study] if Path(path).name == "timings.csv"]
 REPORTS = {"report": STUDIES} | {study: [study] for study in STUDIES}

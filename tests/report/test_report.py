@@ -95,6 +95,8 @@ def project(tmp_path_factory):
         '$ dot(r) = v $ with radius #setting("transfer.radius"), degrees '
         '#setting("transfer.degrees"), time #printed("transfer/a") or #computed("transfer/a").'
     )
+    # What the last chapter shows.
+    shutil.copytree(PROJECT / "data/accepted/pipeline", folder / "data/accepted/pipeline")
     # Title page and packages.
     for name in ("CITATION.cff", "requirements.lock"):
         shutil.copy(PROJECT / name, folder)

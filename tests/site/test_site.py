@@ -40,7 +40,7 @@ def pages(site):
 def test_a_page_for_each_question(pages, root):
     """What was found, each study and what is known of it, all values, the errata."""
     studies = [path.parent.name for path in (root / "data/published").glob("*/study.yaml")]
-    wanted = {"index.html", "values.html", "errata.html"}
+    wanted = {"index.html", "values.html", "errata.html", "pipeline.html"}
     wanted |= {f"{study}{end}.html" for study in studies for end in ("", "-details")}
     assert set(pages) == wanted
 

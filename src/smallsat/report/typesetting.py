@@ -34,7 +34,7 @@ def compile_report(content: Path, project: Path, output: Path) -> None:
 
 
 def compile_part(content: Path, project: Path, part: str, up: str) -> str:
-    """One part of the report as a page: ``front``, or the chapter of a study by its name.
+    """One part of the report as a page: ``front``, ``pipeline``, or the chapter of a study by its name.
 
     Parameters
     ----------

@@ -66,7 +66,10 @@ def write_site(content: Path, project: Path, output: Path) -> None:
         text = pages.get_template(template).render(page=name, **given)
         (partial / name).write_text(text, "utf-8")
 
-    write("index.html", "prose.html.j2", body=_part(content, project, "front"), scenes=[])
+    def write_prose(name: str, part: str, title: str, **given: Any) -> None:
+        write(name, "prose.html.j2", title=title, body=_part(content, project, part), **given)
+
+    write_prose("index.html", "front", "Small-satellite guidance and control, rerun")
     for document in said["documents"]:
         study = document["key"]
         scenes = _scenes(study, config, run)
@@ -74,11 +77,12 @@ def write_site(content: Path, project: Path, output: Path) -> None:
             name = f"{study}-{scene.name}"
             script = f'smallsatScenes["{name}"] = {figure(scene).to_json()};\n'
             (partial / f"scenes/{name}.js").write_text(script, "utf-8")
-        body = _part(content, project, study)
-        write(f"{study}.html", "prose.html.j2", study=document, body=body, scenes=scenes)
+        title = f"{document['subject']}, rerun"
+        write_prose(f"{study}.html", study, title, study=document, scenes=scenes)
         own = [subject for subject in known if subject.study.name == study]
         sorts = _known(own, project, run)
         write(f"{study}-details.html", "details.html.j2", study=document, sorts=sorts)
+    write_prose("pipeline.html", "pipeline", "The pipeline itself")
     write("values.html", "values.html.j2", rows=_rows(said["values"], known))
     write("errata.html", "errata.html.j2")
     shutil.rmtree(output, ignore_errors=True)
