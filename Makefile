@@ -35,12 +35,15 @@ test: $(VENV)/installed
 	@SMALLSAT_OPENED=$(CURDIR)/runs/tests/opened snakemake results --configfile config/tests.yaml
 	@python -m pytest -n 2 --dist loadfile --cov --cov-report=term --cov-report=html
 
-# The web site of the tests' run in Debian's chromium, driven by what requirements.browser.lock adds.
-test-site: $(VENV)/installed
+# The web site of the tests' run in Debian's chromium. Once its driver is there, `make test` does so too.
+test-site: $(VENV)/browser
 	@command -v chromium >/dev/null || { echo "make: chromium not found; install it (Debian: apt-get install chromium)" >&2; exit 2; }
-	$(PIP) --require-hashes -r requirements.browser.lock
 	@snakemake verdicts --configfile config/tests.yaml
 	@python -m pytest tests/site
+
+$(VENV)/browser: requirements.browser.lock $(VENV)/installed
+	$(PIP) --require-hashes -r requirements.browser.lock
+	@touch $@
 
 # All that is known of a printed value, erratum, claim, table or figure; RUN=runs/<name> for a what-if.
 explain: $(VENV)/installed

@@ -1,11 +1,14 @@
-"""The web site in a real Chromium; `make test-site` installs what it needs, else it is skipped."""
+"""The web site in a real Chromium; `make .venv/browser` installs the driver, else it is skipped."""
 
 import shutil
+from pathlib import Path
 
 import pytest
 
-pytest.importorskip("playwright", reason="needs playwright: make test-site")
-pytest.importorskip("axe_playwright_python", reason="needs axe-playwright-python: make test-site")
+pytest.importorskip("playwright", reason="needs playwright: make .venv/browser")
+pytest.importorskip(
+    "axe_playwright_python", reason="needs axe-playwright-python: make .venv/browser"
+)
 
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import sync_playwright
@@ -14,28 +17,39 @@ CHROMIUM = shutil.which("chromium")
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="needs chromium: apt-get install chromium")
 # A phone, a tablet, a screen.
 WIDTHS = (390, 768, 1440)
-PAGES = ("index", "values", "errata", "racing", "mars-details")
+STUDIES = ("transfer", "mars", "slew", "racing", "rendezvous")
+PAGES = ("index", "values", "errata", "mars-details", *STUDIES)
+OVERLAPS = (Path(__file__).parent / "overlaps.js").read_text()
+# One row and one entry of each look, for what depends on looks alone.
+ONE_OF_EACH_LOOK = """() => {
+  const seen = new Set();
+  for (const one of document.querySelectorAll("main tbody tr, main article")) {
+    const parts = [one, ...one.querySelectorAll("*")];
+    const look = parts.map((part) => part.tagName + part.className).join(" ");
+    if (seen.has(look)) one.remove();
+    seen.add(look);
+  }
+}"""
 
 
-@pytest.fixture(scope="module")
-def browser():
+@pytest.fixture(scope="session")
+def context():
     with sync_playwright() as playwright:
-        started = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        yield started
-        started.close()
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield browser.new_context()
+        browser.close()
 
 
 @pytest.fixture
-def page(browser, site):
+def page(context):
     """A page that fails the test if it meets an error or asks another machine for anything."""
-    context = browser.new_context()
     opened = context.new_page()
     wrong: list[str] = []
     opened.on("console", lambda said: wrong.append(said.text) if said.type == "error" else None)
     opened.on("pageerror", lambda error: wrong.append(str(error)))
     opened.on("request", lambda asked: None if local(asked.url) else wrong.append(asked.url))
     yield opened
-    context.close()
+    opened.close()
     assert wrong == []
 
 
@@ -44,26 +58,45 @@ def local(address):
     return address.startswith(("file:", "data:", "blob:"))
 
 
-@pytest.mark.parametrize("width", WIDTHS)
+def violations(page, **options):
+    """What axe finds: the rule and the first element that breaks it."""
+    # Style sheets of a page on disk cannot be asked for again.
+    options |= {"preload": False, "resultTypes": ["violations"]}
+    found = Axe().run(page, options=options).response["violations"]
+    return [(one["id"], one["nodes"][0]["html"]) for one in found]
+
+
+def active(page, what):
+    """A property of the element that has the keyboard."""
+    return page.evaluate(f"document.activeElement.{what}")
+
+
 @pytest.mark.parametrize("name", PAGES)
-def test_a_page_fits_its_screen(page, site, name, width):
-    """Nothing sticks out sideways; wide tables scroll by themselves."""
-    page.set_viewport_size({"width": width, "height": 900})
+def test_a_page_fits_its_screen(page, site, name):
+    """Nothing sticks out sideways or lies upon another; wide tables scroll by themselves."""
     page.goto(f"file://{site}/{name}.html")
     too_wide = "document.documentElement.scrollWidth - document.documentElement.clientWidth"
-    assert page.evaluate(too_wide) == 0
+    for width in WIDTHS:
+        page.set_viewport_size({"width": width, "height": 900})
+        assert (width, page.evaluate(too_wide), page.evaluate(OVERLAPS)) == (width, 0, [])
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_an_overlap_is_seen(page, site):
+    """A paragraph that is moved upon the one before it."""
+    page.goto(f"file://{site}/index.html")
+    page.add_style_tag(content="h1 + p { margin-top: -2rem; }")
+    assert len(page.evaluate(OVERLAPS)) == 1
+
+
 @pytest.mark.parametrize("name", PAGES)
-def test_no_barrier(page, site, name, scheme):
-    """By axe's rules, contrast included, in light and in dark."""
-    page.emulate_media(color_scheme=scheme)
+def test_no_barrier(page, site, name):
+    """By axe's rules; contrast, which takes long, once for each look, in light and in dark."""
     page.goto(f"file://{site}/{name}.html")
-    # Style sheets of a page on disk cannot be asked for again.
-    options = {"preload": False, "resultTypes": ["violations"]}
-    found = Axe().run(page, options=options).response["violations"]
-    assert [(one["id"], one["nodes"][0]["html"]) for one in found] == []
+    assert violations(page, rules={"color-contrast": {"enabled": False}}) == []
+    page.evaluate(ONE_OF_EACH_LOOK)
+    for scheme in ("light", "dark"):
+        page.emulate_media(color_scheme=scheme)
+        assert (scheme, violations(page, runOnly=["color-contrast"])) == (scheme, [])
 
 
 def test_filters_filter(page, site):
@@ -80,32 +113,59 @@ def test_filters_filter(page, site):
     assert page.locator("article:target dl").inner_text().count("-0.443") >= 1
 
 
-def test_by_keyboard(page, site):
-    """The first stop is the link that skips to the content, the next the pages."""
+def test_the_first_stop_skips_to_the_content(page, site):
     page.goto(f"file://{site}/index.html")
     page.keyboard.press("Tab")
-    assert page.evaluate("document.activeElement.className") == "skip"
+    assert active(page, "className") == "skip"
     page.keyboard.press("Enter")
-    assert page.evaluate("document.activeElement.id") == "content"
+    assert active(page, "id") == "content"
+
+
+def test_a_wide_table_is_scrolled_by_keyboard(page, site):
+    """On a phone the table of values is wider than the screen; Tab reaches it after the filters."""
+    page.set_viewport_size({"width": 390, "height": 900})
+    page.goto(f"file://{site}/values.html")
+    page.locator("select[name=verdict]").focus()
+    page.keyboard.press("Tab")
+    assert active(page, "className") == "scroll values"
+    page.keyboard.press("ArrowRight")
+    page.wait_for_function("document.activeElement.scrollLeft > 0")
 
 
 @pytest.mark.parametrize("name", ["mars", "racing", "rendezvous", "slew"])
 def test_a_scene_is_drawn_when_asked_for(page, site, name):
-    """Until then there is the figure, then a canvas that plays."""
+    """Until then there is the figure, then a canvas that plays; all by keyboard."""
     page.goto(f"file://{site}/{name}.html")
     scene = page.locator("figure.scene").first
     assert scene.locator("img").count() == 1
-    scene.locator("button").click()
-    scene.locator(".stage canvas").first.wait_for(timeout=120_000)
-    assert scene.locator("text=Play").count() == 1
+    scene.locator("> button").focus()
+    page.keyboard.press("Enter")
+    scene.locator("> button", has_text="Play").wait_for(timeout=120_000)
+    assert scene.locator(".stage canvas").count() > 0
     assert scene.locator("img").count() == 0
+    # The place of what moves, before and while it plays.
+    moved = "document.querySelector('.stage').data.at(-1).x[0]"
+    start = page.evaluate(moved)
+    assert active(page, "textContent") == "Play"
+    page.keyboard.press("Enter")
+    page.wait_for_function(f"{moved} !== {start}", timeout=120_000)
+    assert active(page, "textContent") == "Pause"
+    page.keyboard.press("Enter")
+    assert active(page, "textContent") == "Play"
 
 
-def test_reduced_motion(page, site):
-    """There is no play."""
+def test_a_scene_is_turned_by_keyboard(page, site):
+    """There is no play where motion is to be reduced; arrows turn, and keep the distance."""
     page.emulate_media(reduced_motion="reduce")
     page.goto(f"file://{site}/mars.html")
     scene = page.locator("figure.scene").first
-    scene.locator("button").click()
-    scene.locator(".stage canvas").first.wait_for(timeout=120_000)
-    assert scene.locator("text=Play").count() == 0
+    scene.locator("> button").click()
+    scene.locator(".stage:focus").wait_for(timeout=120_000)
+    assert scene.locator("> button").count() == 0
+    eye = "Object.values(document.activeElement.layout.scene.camera.eye)"
+    before = page.evaluate(eye)
+    page.keyboard.press("ArrowLeft")
+    page.wait_for_function(f"{eye}[0] !== {before[0]}")
+    after = page.evaluate(eye)
+    assert sum(x * x for x in after) == pytest.approx(sum(x * x for x in before))
+    assert after[2] == pytest.approx(before[2])

@@ -9,8 +9,8 @@ import plotly.graph_objects as go
 
 # Instants of a play; more make the page heavier and no clearer.
 FRAMES = 120
-# Milliseconds that each is shown.
-FRAME_MS = 60
+# From where it is seen at first, on each axis, in half widths of the scene.
+EYE = 1.25
 TRANSPARENT = "rgba(0,0,0,0)"
 DIMENSIONS = ("x", "y", "z")
 
@@ -94,13 +94,11 @@ def sphere(radius: float, colour: str, name: str, opacity: float = 0.25) -> go.S
 
 
 def figure(scene: Scene) -> go.Figure:
-    """The scene with buttons that play and pause it."""
+    """The scene with an instant a frame; the page has the button that plays them."""
     still = [*scene.still, *(line(t.points, t.colour, t.name) for t in scene.tracks)]
     end = max(track.times[-1] for track in scene.tracks)
     instants = np.linspace(0.0, end, FRAMES)
     movers = list(range(len(still), len(still) + len(scene.tracks)))
-    play = {"frame": {"duration": FRAME_MS, "redraw": True}, "fromcurrent": True}
-    pause = {"frame": {"duration": 0}, "mode": "immediate"}
     axis = {"title": {"text": scene.unit}, "backgroundcolor": TRANSPARENT, "gridcolor": "#8888"}
     return go.Figure(
         data=[*still, *_markers(scene.tracks, 0.0)],
@@ -109,22 +107,14 @@ def figure(scene: Scene) -> go.Figure:
             for time in instants
         ],
         layout={
-            "scene": {"aspectmode": "data", **{f"{name}axis": axis for name in DIMENSIONS}},
+            "scene": {
+                "aspectmode": "data",
+                "camera": {"eye": dict.fromkeys(DIMENSIONS, EYE)},
+                **{f"{name}axis": axis for name in DIMENSIONS},
+            },
             "margin": {"l": 0, "r": 0, "t": 0, "b": 0},
             "paper_bgcolor": TRANSPARENT,
             "legend": {"orientation": "h"},
-            "updatemenus": [
-                {
-                    "type": "buttons",
-                    "direction": "left",
-                    "x": 0,
-                    "y": 0,
-                    "buttons": [
-                        {"label": "Play", "method": "animate", "args": [None, play]},
-                        {"label": "Pause", "method": "animate", "args": [[None], pause]},
-                    ],
-                }
-            ],
         },
     )
 
