@@ -83,11 +83,13 @@ for study in STUDIES:
             [path for path in MADE[study] if path.startswith("data/results")],
             [f"{stem}.svg" for run in RUNS[study] for stem in run.stems],
             results(study, *FINDINGS),
-            [f"report/build/{study}-comparison.html"] * bool(WHAT_IF),
+            # A what-if ends with a report of its own, and what differs.
+            [f"report/build/{study}-site"] * bool(WHAT_IF),
         log:
             f"logs/{study}/all.log",
         message:
             f"{study}: all tables, figures and verdicts are there"
+            + f"; {RUN_FOLDER}/report/build/{study}-site/index.html" * bool(WHAT_IF)
 
 
 rule merge_verdicts:

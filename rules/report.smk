@@ -1,18 +1,27 @@
-# The report: its content collected from the results of a run, then typeset as a PDF and as a web page.
+# The report: its content collected from the results of a run, typeset as a PDF and written as a web site.
 # It is built whatever the verdicts are, so that a wrong one can be read about. Each study has a report
 # of its own, for a what-if that leaves the others as they are.
-TEMPLATES = [
-    project(path.relative_to(ROOT))
-    for folder in ("parts", "chapters", "summaries", "pipeline")
-    for path in sorted((ROOT / "report" / folder).glob("*.typ"))
-] + [
-    project(path)
-    for path in ("report/style.css", "report/references.yaml", "CITATION.cff", "requirements.lock")
-] + [
-    # What the last chapter shows.
-    project(path.relative_to(ROOT))
-    for path in sorted((ROOT / "data/accepted/pipeline").glob("*.csv"))
-]
+TEMPLATES = (
+    [
+        project(path.relative_to(ROOT))
+        for folder in ("parts", "chapters", "summaries", "pipeline")
+        for path in sorted((ROOT / "report" / folder).glob("*.typ"))
+    ]
+    + [
+        project(path)
+        for path in (
+            "report/style.css",
+            "report/references.yaml",
+            "CITATION.cff",
+            "requirements.lock",
+        )
+    ]
+    + [
+        # What the last chapter shows.
+        project(path.relative_to(ROOT))
+        for path in sorted((ROOT / "data/accepted/pipeline").glob("*.csv"))
+    ]
+)
 TIMINGS = [path for study in STUDIES for path in MADE[study] if Path(path).name == "timings.csv"]
 REPORTS = {"report": STUDIES} | {study: [study] for study in STUDIES}
 
@@ -85,9 +94,8 @@ for report, shown in REPORTS.items():
             figures=[report_figures(study) for study in shown],
             # Comes with the report of a what-if run.
             comparisons=[f"report/build/{study}-comparison.html" for study in shown if WHAT_IF],
-        # The whole as a page is the site; one study, which a what-if asks for, is a single page.
         output:
-            [f"report/build/{report}.{suffix}" for suffix in ["pdf"] + ["html"] * bool(prefix)],
+            f"report/build/{report}.pdf",
         log:
             f"{logs}/report.log",
         benchmark:
@@ -100,46 +108,54 @@ for report, shown in REPORTS.items():
             "python -m smallsat typeset {input.content} --project {params.project}"
             " --output {output} > {log} 2>&1"
 
-
-# The pages link figures, notebooks and the PDF, which are there when the report is.
-rule site:
-    input:
-        sources=sources(
-            "smallsat.site.pages",
-            *[
-                f"smallsat.studies.{study}.{module}"
-                for study in SCENES
-                for module in ("configuration", "figures.interactive")
+    # The pages link figures, notebooks, comparisons and the PDF, which are there when the report is.
+    rule:
+        name:
+            f"{prefix}site"
+        input:
+            sources=sources(
+                "smallsat.site.pages",
+                *[
+                    f"smallsat.studies.{study}.{module}"
+                    for study in SCENES
+                    if study in shown
+                    for module in ("configuration", "figures.interactive")
+                ],
+            ),
+            content=f"report/build/{report}.json",
+            report=f"report/build/{report}.pdf",
+            template=project("report/report.typ"),
+            parts=TEMPLATES,
+            pages=[
+                project(path.relative_to(ROOT))
+                for path in sorted((ROOT / "report/site").glob("*.*"))
             ],
-        ),
-        content="report/build/report.json",
-        report="report/build/report.pdf",
-        template=project("report/report.typ"),
-        parts=TEMPLATES,
-        pages=[
-            project(path.relative_to(ROOT)) for path in sorted((ROOT / "report/site").glob("*.*"))
-        ],
-        published=[
-            project(path.relative_to(ROOT))
-            for path in sorted(PUBLISHED.glob("*/*.*"))
-            if path.suffix in (".yaml", ".csv")
-        ],
-        drawings=[project(f"notebooks/{study}/figures.yaml") for study in STUDIES],
-        findings=[path for study in STUDIES for path in results(study, *FINDINGS)],
-        results=[path for study, names in SCENES.items() for path in results(study, *names)],
-    output:
-        directory("report/build/site"),
-    log:
-        "logs/site.log",
-    benchmark:
-        "logs/site.benchmark.tsv"
-    params:
-        project=lambda w, input: Path(input.template).parents[1],
-    message:
-        "Write the web site, report/build/site"
-    shell:
-        "python -m smallsat site {input.content} --project {params.project} --output {output}"
-        " > {log} 2>&1"
+            published=[
+                project(path.relative_to(ROOT))
+                for path in sorted(PUBLISHED.glob("*/*.*"))
+                if path.suffix in (".yaml", ".csv")
+            ],
+            drawings=[project(f"notebooks/{study}/figures.yaml") for study in shown],
+            findings=[path for study in shown for path in results(study, *FINDINGS)],
+            results=[
+                path
+                for study in SCENES
+                if study in shown
+                for path in results(study, *SCENES[study])
+            ],
+        output:
+            directory(f"report/build/{prefix.replace('_', '-')}site"),
+        log:
+            f"{logs}/site.log",
+        benchmark:
+            f"{logs}/site.benchmark.tsv"
+        params:
+            project=lambda w, input: Path(input.template).parents[1],
+        message:
+            f"Write the web site, report/build/{prefix.replace('_', '-')}site"
+        shell:
+            "python -m smallsat site {input.content} --project {params.project} --output {output}"
+            " > {log} 2>&1"
 
 
 # A what-if run ends with what differs from the reproduction, or from its accepted results where it is

@@ -36,22 +36,40 @@ def undrawn(root):
                 yield extra["table"], header.to_csv(index=False)
 
 
+def written(root, tested_run, name, change, studies):
+    """The site of a run with the tests' results: all studies, or those that are named."""
+    # Tests on several cores build one each.
+    run = root / f"runs/{name}-{os.environ.get('PYTEST_XDIST_WORKER', 'alone')}"
+    shutil.rmtree(run, ignore_errors=True)
+    shutil.copytree(tested_run / "data", run / "data")
+    for file, text in undrawn(root):
+        (run / file).parent.mkdir(parents=True, exist_ok=True)
+        if not (run / file).exists():
+            (run / file).write_text(text)
+    made = read_run(root, [root / "config/tests.yaml"], change)
+    config, default = (json.loads(as_json(one)) for one in (made.config, made.default))
+    report, folder = (
+        (f"{studies[0]}.json", f"{studies[0]}-site") if studies else ("report.json", "site")
+    )
+    content = run / "report/build" / report
+    write_json(collect(root, run, config, default, studies=studies), content)
+    write_site(content, root, content.parent / folder)
+    # What the pages link beside them.
+    content.with_suffix(".pdf").touch()
+    for study in read_catalogue(root / "data/published"):
+        (content.parent / f"{study.name}-comparison.html").touch()
+    yield content.parent / folder
+    shutil.rmtree(run)
+
+
 @pytest.fixture(scope="session")
 def site(root, tested_run):
     """Folder of the site."""
-    # Tests on several cores build one each.
-    run = root / f"runs/site-of-tests-{os.environ.get('PYTEST_XDIST_WORKER', 'alone')}"
-    shutil.rmtree(run, ignore_errors=True)
-    shutil.copytree(tested_run / "data", run / "data")
-    for name, text in undrawn(root):
-        (run / name).parent.mkdir(parents=True, exist_ok=True)
-        if not (run / name).exists():
-            (run / name).write_text(text)
-    made = read_run(root, [root / "config/tests.yaml"], [])
-    config, default = (json.loads(as_json(one)) for one in (made.config, made.default))
-    content = run / "report/build/report.json"
-    write_json(collect(root, run, config, default), content)
-    write_site(content, root, run / "report/build/site")
-    (run / "report/build/report.pdf").touch()
-    yield run / "report/build/site"
-    shutil.rmtree(run)
+    yield from written(root, tested_run, "site-of-tests", [], [])
+
+
+@pytest.fixture(scope="session")
+def what_if_site(root, tested_run):
+    """Folder of the site of a what-if of one study."""
+    change = ['mars={"visibility_deg": 40}']
+    yield from written(root, tested_run, "what-if-of-tests", change, ["mars"])

@@ -76,7 +76,7 @@ def run(what_if: WhatIf, command: list[str], project: Path, **options: Any) -> O
     folder = project / "runs" / what_if.run
     shutil.rmtree(folder, ignore_errors=True)
     setting = f"{what_if.study}={json.dumps(what_if.change)}"
-    words = [f"{what_if.study}_report", "--config", f"run={what_if.run}", setting]
+    words = [f"{what_if.study}_site", "--config", f"run={what_if.run}", setting]
     done = subprocess.run(
         [*command, *words], cwd=project, capture_output=True, text=True, check=False, **options
     )
@@ -93,7 +93,7 @@ def run(what_if: WhatIf, command: list[str], project: Path, **options: Any) -> O
         for path in (
             f"data/results/{what_if.study}/observations.csv",
             f"report/build/{what_if.study}.pdf",
-            f"report/build/{what_if.study}.html",
+            f"report/build/{what_if.study}-site/index.html",
         )
         if not (folder / path).exists()
     ]

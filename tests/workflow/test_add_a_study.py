@@ -55,7 +55,7 @@ def test_claim_and_erratum_are_as_the_page_pins_them(built):
 
 
 def test_the_report_shows_chapter_figure_and_erratum(built):
-    page = (built.folder / "report/build/period.html").read_text()
+    page = (built.folder / "report/build/period-site/period.html").read_text()
     for word in ("The period of a circular orbit", "5828.5", "figures/period/fig-1.svg", "97.41"):
         assert word in page, word
     assert (built.folder / "report/build/period.pdf").exists()

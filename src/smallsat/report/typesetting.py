@@ -1,4 +1,4 @@
-"""Typeset the report: one Typst source, as a PDF or as a web page."""
+"""Typeset the report: one Typst source, as a PDF or, part by part, for web pages."""
 
 import argparse
 import re
@@ -12,7 +12,7 @@ from smallsat.errors import InputError
 
 
 def compile_report(content: Path, project: Path, output: Path) -> None:
-    """Typeset the report; as a page if the output is an ``.html``. Works offline.
+    """Typeset the report as a PDF. Works offline.
 
     Parameters
     ----------
@@ -21,7 +21,7 @@ def compile_report(content: Path, project: Path, output: Path) -> None:
     project
         Folder of the project: the templates lie in ``report``, the run in it or below it.
     output
-        Where the report goes, beside the content, so that the page's links hold.
+        Where the report goes.
 
     Raises
     ------
@@ -29,12 +29,12 @@ def compile_report(content: Path, project: Path, output: Path) -> None:
         Naming the template or file that Typst stumbled over.
     """
     partial = output.with_name(f".{output.name}.partial")
-    partial.write_bytes(_typeset(content, project, "html" if output.suffix == ".html" else "pdf"))
+    partial.write_bytes(_typeset(content, project, "pdf"))
     partial.replace(output)
 
 
 def compile_part(content: Path, project: Path, part: str, up: str) -> str:
-    """One part of the report as a page: ``front``, ``pipeline``, or the chapter of a study by its name.
+    """One part of the report as a page: ``front``, ``pipeline``, or a study by its name.
 
     Parameters
     ----------
@@ -83,10 +83,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``typeset``."""
     parser.add_argument("content", type=Path)
     parser.add_argument("--project", required=True, type=Path, help="folder of the project")
-    parser.add_argument("--output", required=True, type=Path, nargs="+", help=".pdf or .html")
+    parser.add_argument("--output", required=True, type=Path, help="a .pdf")
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Typeset every output that is asked for."""
-    for output in arguments.output:
-        compile_report(arguments.content, arguments.project, output)
+    """Typeset the report."""
+    compile_report(arguments.content, arguments.project, arguments.output)

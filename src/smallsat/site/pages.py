@@ -1,4 +1,4 @@
-"""The web site of a build: what was found, a page a study, all values, errata, what is known.
+"""The web site of a run: what was found, a page a study, all values, errata, what is known.
 
 Everything lies in one folder and is opened from disk; nothing is fetched from elsewhere. Prose and
 tables of the report come from its own Typst source, so that page and PDF cannot disagree.
@@ -6,6 +6,7 @@ tables of the report come from its own Typst source, so that page and PDF cannot
 
 import argparse
 import json
+import os
 import re
 import shutil
 from collections.abc import Mapping
@@ -40,11 +41,12 @@ def write_site(content: Path, project: Path, output: Path) -> None:
     Parameters
     ----------
     content
-        JSON of `smallsat.report.content.collect`, in ``report/build`` of the run.
+        JSON of `smallsat.report.content.collect`, in ``report/build`` of the run, of all studies
+        or of one; beside it the PDF, and of a what-if the comparison of each study.
     project
         Folder of the project, with ``report`` and ``data/published``.
     output
-        Folder of the site, ``report/build/site`` of the run; what lies there is replaced.
+        Folder of the site, in ``report/build`` of the run; what lies there is replaced.
     """
     said, run = json.loads(content.read_text("utf-8")), output.resolve().parents[2]
     config = validate(said["config"], model_of(project))
@@ -59,7 +61,14 @@ def write_site(content: Path, project: Path, output: Path) -> None:
     pages = Environment(
         loader=FileSystemLoader(templates), autoescape=True, undefined=StrictUndefined
     )
-    pages.globals |= {"studies": said["documents"], "up": UP}
+    pages.globals |= {
+        "studies": said["documents"],
+        "whole": len(said["documents"]) > 1,
+        "what_if": said["run"]["what_if"],
+        "pdf": content.with_suffix(".pdf").name,
+        "up": UP,
+        "home": UP + os.path.relpath(project.resolve(), run) + "/",
+    }
     known = subjects(project / "data/published")
 
     def write(name: str, template: str, **given: Any) -> None:
@@ -69,7 +78,8 @@ def write_site(content: Path, project: Path, output: Path) -> None:
     def write_prose(name: str, part: str, title: str, **given: Any) -> None:
         write(name, "prose.html.j2", title=title, body=_part(content, project, part), **given)
 
-    write_prose("index.html", "front", "Small-satellite guidance and control, rerun")
+    title = "Small-satellite guidance and control, rerun"
+    write_prose("index.html", "front", title, compared=said["documents"])
     for document in said["documents"]:
         study = document["key"]
         scenes = _scenes(study, config, run)
@@ -78,11 +88,13 @@ def write_site(content: Path, project: Path, output: Path) -> None:
             script = f'smallsatScenes["{name}"] = {figure(scene).to_json()};\n'
             (partial / f"scenes/{name}.js").write_text(script, "utf-8")
         title = f"{document['subject']}, rerun"
-        write_prose(f"{study}.html", study, title, study=document, scenes=scenes)
+        given = {"study": document, "scenes": scenes, "compared": [document]}
+        write_prose(f"{study}.html", study, title, **given)
         own = [subject for subject in known if subject.study.name == study]
         sorts = _known(own, project, run)
         write(f"{study}-details.html", "details.html.j2", study=document, sorts=sorts)
-    write_prose("pipeline.html", "pipeline", "The pipeline itself")
+    if pages.globals["whole"]:
+        write_prose("pipeline.html", "pipeline", "The pipeline itself")
     write("values.html", "values.html.j2", rows=_rows(said["values"], known))
     write("errata.html", "errata.html.j2")
     shutil.rmtree(output, ignore_errors=True)
@@ -101,9 +113,10 @@ def _part(content: Path, project: Path, part: str) -> Markup:
 
 
 def _scenes(study: str, config: Config, run: Path) -> list[Scene]:
-    """The scenes of a study that has any."""
+    """The scenes of a study that has any, but for those whose figure a what-if leaves out."""
     module = study_module(study, "figures.interactive")
-    return module.scenes(config[study], run / "data/results" / study) if module else []
+    found = module.scenes(config[study], run / "data/results" / study) if module else []
+    return [scene for scene in found if (run / f"{scene.fallback}.svg").exists()]
 
 
 def _known(own: list[Subject], project: Path, run: Path) -> list[Content]:

@@ -113,6 +113,8 @@ def known_of(subject: Subject, project: Path, run: Path) -> list[tuple[str, str]
     study = subject.study
     document = ", ".join(str(word) for word in (study.author, study.title, study.year) if word)
     lines = [("document", document), *EXPLAIN[subject.sort](subject, project, run)]
+    if run.resolve() != project.resolve():
+        lines.append(("with", "the --config or --configfile of the run"))
     return [(label, text) for label, text in lines if text]
 
 
