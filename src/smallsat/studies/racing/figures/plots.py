@@ -37,8 +37,10 @@ ARROW_M = 110.0
 FACE = 3.0
 # Around the optimal paths of a segment, m.
 SIDE_MARGIN, ASTRAY_M = 50.0, 60.0
+# Inches: the record prints figures of this width in pairs, at four fifths of their size.
+PAIR_WIDTH = 4.6
 # Length of a ring's arrow in it, m, and width of the panel, in inches.
-NORMAL_M, SIDE_WIDTH = 45.0, 4.0
+NORMAL_M, SIDE_WIDTH = 45.0, 2.9
 # Height of a panel, inches: with two of them a figure is printed in its own size.
 TALLEST = 1.55
 # How far from its ring a number stands, as shares of a panel's width, and in which directions.
@@ -196,7 +198,7 @@ def trajectory_figure(course: Course, paths: pd.DataFrame, cubesat: str) -> Figu
     """Figs. 3 to 6 and 9 to 12: state, adjoints and thrust over time; dots where rings ask."""
     rows = len(PANELS) + len(STRIPS)
     figure, grid = plt.subplots(
-        rows, 2, figsize=(WIDTH, 5.4), sharex="col",
+        rows, 2, figsize=(PAIR_WIDTH, 5.0), sharex="col",
         height_ratios=[1.0] * len(PANELS) + [0.55] * len(STRIPS),
     )  # fmt: skip
     for column, solution in enumerate((LISTING, OPTIMAL)):
@@ -228,7 +230,7 @@ def trajectory_figure(course: Course, paths: pd.DataFrame, cubesat: str) -> Figu
     for axes, (label, _) in zip(grid[:, 0], PANELS, strict=False):
         axes.set_ylabel(label, fontsize=8)
     for axes, axis in zip(grid[len(PANELS) :, 0], AXIS_COLOURS, strict=True):
-        axes.set_ylabel(f"$u_{axis}$\n(m/s$^2$)", fontsize=7)
+        axes.set_ylabel(f"$u_{axis}$\n(m/s$^2$)", fontsize=8)
     figure.align_ylabels(grid[:, 0])
     handles = [
         *(Line2D([], [], color=colour, label=axis) for axis, colour in AXIS_COLOURS.items()),
@@ -268,8 +270,8 @@ def segment_figure(course: Course, paths: pd.DataFrame, segment: int) -> Figure:
     low[1], high[1] = min([low[1], *astray]), max([high[1], *astray])
     shape = float((high - low)[1] / (high - low)[0])
     tall = float(np.clip(0.85 * SIDE_WIDTH * shape, 0.8, TALLEST))
-    figure = plt.figure(figsize=(WIDTH, 2.0 * tall + 1.3))
-    grid = figure.add_gridspec(2, 2, width_ratios=(SIDE_WIDTH, WIDTH - SIDE_WIDTH))
+    figure = plt.figure(figsize=(PAIR_WIDTH, 2.0 * tall + 1.5))
+    grid = figure.add_gridspec(2, 2, width_ratios=(SIDE_WIDTH, PAIR_WIDTH - SIDE_WIDTH))
     sides = [figure.add_subplot(grid[0, 0])]
     sides.append(figure.add_subplot(grid[1, 0], sharex=sides[0], sharey=sides[0]))
     for axes, solution in zip(sides, (LISTING, OPTIMAL), strict=True):
@@ -310,7 +312,7 @@ def segment_figure(course: Course, paths: pd.DataFrame, segment: int) -> Figure:
         Line2D([], [], marker="x", ls="", color=BLACK, ms=5, label="crossing, our listing"),
         Line2D([], [], marker="o", ls="", mfc="white", mec=BLACK, ms=4, label="crossing, optimal"),
     ]
-    figure.legend(handles=handles, loc="outside lower center", ncols=6, fontsize=7)
+    figure.legend(handles=handles, loc="outside lower center", ncols=3, fontsize=7.5)
     return figure
 
 
@@ -357,11 +359,11 @@ def _face_in(axes: Any, course: Course, own: pd.DataFrame, segment: int) -> None
     axes.set_xlim(-reach, reach)
     axes.set_ylim(-reach, reach)
     axes.set_aspect("equal")
-    axes.set_xlabel("level (m)", fontsize=7)
-    axes.set_ylabel("across (m)", fontsize=7)
-    axes.tick_params(labelsize=6)
+    axes.set_xlabel("level (m)", fontsize=8)
+    axes.set_ylabel("across (m)", fontsize=8)
+    axes.tick_params(labelsize=7)
     title = "around the end (1 m)" if final else f"ring {k + 1} along its normal"
-    axes.set_title(f"{title}\n(at the edge: farther off)", fontsize=7)
+    axes.set_title(f"{title}\n(at the edge: farther off)", fontsize=7.5)
 
 
 def segment_data(paths: pd.DataFrame, segment: int) -> pd.DataFrame:

@@ -23,6 +23,8 @@ TITLES = {"stage-wise": "stage-wise solver", "generated": "generated solver"}
 # Bins over the range of a histogram whose bin width is not printed.
 BINS = 40
 MILLION = 1e6
+# Inches: the record prints figures of this width in pairs, at four fifths of their size.
+PAIR_WIDTH = 4.6
 
 
 def _box(axes: Axes, x: float, y: float, text: str, colour: str) -> None:
@@ -32,14 +34,12 @@ def _box(axes: Axes, x: float, y: float, text: str, colour: str) -> None:
     )  # fmt: skip
 
 
-def _arrow(axes: Axes, start: tuple[float, float], end: tuple[float, float], text: str) -> None:
+def _arrow(axes: Axes, start: tuple[float, float], end: tuple[float, float]) -> None:
     axes.add_patch(FancyArrowPatch(start, end, arrowstyle="-|>", mutation_scale=11, color=GREY))
-    middle = 0.5 * (np.array(start) + np.array(end))
-    axes.annotate(text, middle, xytext=(0, 5), textcoords="offset points", ha="center", fontsize=8)
 
 
 def _canvas(height: float, size: tuple[float, float]) -> tuple[Figure, Axes]:
-    figure, axes = subplots(figsize=(WIDTH, height))
+    figure, axes = subplots(figsize=(PAIR_WIDTH, height))
     axes.set(xlim=(0, size[0]), ylim=(0, size[1]))
     axes.axis("off")
     axes.grid(visible=False)
@@ -50,15 +50,18 @@ def communication(link: pd.DataFrame) -> Drawing:
     """Figure 6.1: what goes over the socket. ``link`` is ``flight/link.csv``."""
     row = link.iloc[0]
     figure, axes = _canvas(1.7, (10.0, 3.0))
+    words = {"ha": "center", "fontsize": 8}
     simulation = "simulation, the server:\nmoves both bodies in the\nEarth's field and air"
     program = (
         f"flight program, the client:\nguidance law and solver on\nan emulated {row['processor']}"
     )
-    _box(axes, 1.9, 1.5, simulation, BLUE)
-    _box(axes, 8.1, 1.5, program, VERMILION)
-    _arrow(axes, (3.8, 1.9), (6.2, 1.9), "time, relative state")
-    _arrow(axes, (6.2, 1.1), (3.8, 1.1), "phase, change of velocity")
-    axes.text(5.0, 0.2, f"once a sample: {row['steps']} times", ha="center", fontsize=8)
+    _box(axes, 1.75, 1.7, simulation, BLUE)
+    _box(axes, 8.2, 1.7, program, VERMILION)
+    _arrow(axes, (3.6, 1.9), (6.3, 1.9))
+    axes.text(4.95, 2.0, "time,\nrelative state", va="bottom", **words)
+    _arrow(axes, (6.3, 1.5), (3.6, 1.5))
+    axes.text(4.95, 1.4, "phase, change\nof velocity", va="top", **words)
+    axes.text(4.95, 0.1, f"once a sample: {row['steps']} times", **words)
     return figure, link
 
 
@@ -71,7 +74,7 @@ def plan(settings: FlightComputer) -> Drawing:
         rows += [(name, "sample time [s]", t) for t in varied.sample_times_s]
     table = pd.DataFrame(rows, columns=["phase", "varied", "value"])
     figure, axes = _canvas(2.6, (10.0, 6.0))
-    _box(axes, 1.4, 3.0, f"{settings.runs} initial states", GREY)
+    _box(axes, 1.2, 3.0, f"{settings.runs} initial states", GREY)
     titles = ("rendezvous", "approach", "docking")
     for place, (phase, title) in enumerate(zip(PHASES, titles, strict=True)):
         y = 5.0 - 2.0 * place
@@ -81,10 +84,10 @@ def plan(settings: FlightComputer) -> Drawing:
             for varied, values in own
             if len(values) > 1
         ]
-        _box(axes, 4.6, y, title, COLOURS[place])
-        _box(axes, 8.2, y, "\n".join(lines), COLOURS[place])
-        _arrow(axes, (2.5, 3.0 + 0.4 * (1 - place)), (3.6, y), "")
-        _arrow(axes, (5.6, y), (6.4, y), "")
+        _box(axes, 4.4, y, title, COLOURS[place])
+        _box(axes, 8.05, y, "\n".join(lines), COLOURS[place])
+        _arrow(axes, (2.5, 3.0 + 0.4 * (1 - place)), (3.4, y))
+        _arrow(axes, (5.25, y), (5.65, y))
     return figure, table
 
 
@@ -112,7 +115,7 @@ def counts(runs: pd.DataFrame, phase: str, varied: str, bin_ms: float, ledger: L
     label, unit = ("N", "") if varied == "horizon" else ("Ts", " s")
     own = swept(runs, phase, varied)
     values = sorted(own[varied].unique())
-    figure, panels = subplots(1, 2, figsize=(WIDTH, 2.7), sharey=True)
+    figure, panels = subplots(1, 2, figsize=(PAIR_WIDTH, 2.6), sharey=True)
     drawn = []
     for panel, (solver, title) in zip(panels, TITLES.items(), strict=True):
         rows = own[own["solver"] == solver]
@@ -133,8 +136,8 @@ def counts(runs: pd.DataFrame, phase: str, varied: str, bin_ms: float, ledger: L
                 if n
             ]
         panel.set_title(title, loc="left")
-        panel.set_xlabel("average of a run [million instructions]")
         panel.set_xlim(0, None)
+    figure.supxlabel("average of a run [million instructions]", fontsize=9)
     panels[0].set_ylabel("runs")
     handles = panels[0].get_legend_handles_labels()
     figure.legend(*handles, loc="outside upper right", ncols=len(values))
