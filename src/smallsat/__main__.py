@@ -5,6 +5,7 @@ import sys
 from importlib import import_module
 
 from smallsat.errors import report_input_errors
+from smallsat.workflow.one_build import end_with_build
 
 # Each command is a module with `add_arguments` and `main`, and is imported alone: a rule's sources
 # are those of its command. This file is a source of no rule, so that a new command reruns nothing.
@@ -30,6 +31,7 @@ COMMANDS = {
 
 def main() -> None:
     """Parse the command line and run one command."""
+    end_with_build()
     name = sys.argv[1] if len(sys.argv) > 1 else ""
     if name not in COMMANDS:
         print(f"usage: python -m smallsat {{{','.join(COMMANDS)}}} ...", file=sys.stderr)

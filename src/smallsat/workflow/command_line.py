@@ -7,12 +7,16 @@ answered in one line, and the user's own settings of Python and Jupyter stay out
 
 import os
 import sys
+import time
 from argparse import ArgumentParser
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from smallsat.errors import InputError
+from smallsat.workflow.changed_results import distrusted, future_sources, records, remove, told
 from smallsat.workflow.isolation import isolated
+from smallsat.workflow.one_build import BUILD, held
 
 PROJECT = Path(__file__).parents[3]
 
@@ -109,14 +113,48 @@ def unlimited(make_parser: Callable[..., ArgumentParser]) -> Callable[..., Argum
     return maker
 
 
+def careful(execute: Callable[..., bool]) -> Callable[..., bool]:
+    """Snakemake's execution of a workflow, alone in its folder and upon results that are as made.
+
+    What is not as its job made it is removed first, so that it is made anew, and sources that are
+    dated later than now are dated now: the clock was set back.
+    """
+
+    def executing(workflow: Any, executor_plugin: Any, *arguments: Any, **named: Any) -> bool:
+        run, kind = Path(), executor_plugin.common_settings
+        if kind.dryrun_exec:
+            for line in told(distrusted(records(run), time.time())):
+                print(f"smallsat: {line}", file=sys.stderr)
+            return execute(workflow, executor_plugin, *arguments, **named)
+        try:
+            with held(run) as now:
+                # --touch takes everything as made.
+                known = [] if kind.touch_exec else records(run)
+                found = list(distrusted(known, now))
+                for line in told(found):
+                    print(f"smallsat: {line}", file=sys.stderr)
+                for path in future_sources(known, now):
+                    os.utime(path)
+                for record, _ in found:
+                    remove(record)
+                return execute(workflow, executor_plugin, *arguments, **named)
+        except InputError as error:
+            sys.exit(f"smallsat: {error}")
+
+    return executing
+
+
 def main() -> None:
     """Run Snakemake with the words of this call."""
     from snakemake import cli
+    from snakemake.workflow import Workflow
 
     words = understood(sys.argv[1:])
     check_settings(words)
     sys.argv = ["snakemake", *words]
     cli.get_argument_parser = unlimited(cli.get_argument_parser)
+    Workflow.execute = careful(Workflow.execute)
+    os.environ[BUILD] = str(os.getpid())
     cli.main()
 
 
