@@ -9,7 +9,7 @@ export PIP_USER := 0
 PIP := $(VENV)/bin/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := all
-.PHONY: all test test-site explain compare accept what-ifs lint animations flight benchmark benchmark-baseline lock clean lab dag
+.PHONY: all test test-site explain compare accept what-ifs lint animations flight benchmark benchmark-baseline faults determinism lock clean lab dag
 
 all: $(VENV)/installed
 	@snakemake all
@@ -97,6 +97,18 @@ flight: $(VENV)/installed
 
 benchmark: $(VENV)/installed
 	python benchmarks/run.py
+
+# A small build is struck at seeded moments, killed, interrupted, out of disk, its files damaged; the
+# next one has to end alike. As root, which mounts the full disk. FAULTS names some of them.
+faults: $(VENV)/installed
+	@python -m tests.faults.run $(FAULTS)
+
+# Two builds varied as reprotest varies them, and one on another kernel of OpenBLAS, as root.
+# CONFIG= is the full configuration; ONLY names studies.
+determinism: CONFIG ?= config/quick.yaml
+determinism: $(VENV)/installed
+	@command -v disorderfs localedef >/dev/null || { echo "make: disorderfs and localedef not found; install them (Debian: apt-get install disorderfs locales)" >&2; exit 2; }
+	@python -m tests.determinism.run $(ONLY) $(if $(CONFIG),--configfile $(CONFIG))
 
 # The side-by-side baseline of benchmarks/slew_speed.py; nothing else uses it.
 # Without its dependencies, which would exchange the project's own CasADi.

@@ -7,7 +7,6 @@ once, as a person would, with no option that mends anything.
 import argparse
 import csv
 import os
-import platform
 import shutil
 import subprocess
 import sys
@@ -16,13 +15,10 @@ import time
 from collections.abc import Iterator
 from contextlib import ExitStack
 from dataclasses import asdict, dataclass
-from datetime import date
-from importlib.metadata import version
 from pathlib import Path
 from random import Random
 
 from tests.faults.builds import (
-    TARGETS,
     UNDISTURBED,
     Build,
     gone,
@@ -33,6 +29,7 @@ from tests.faults.builds import (
 )
 from tests.faults.kinds import FAULTS, FULL_DISK, READ_ONLY, Fault, read_only, small_disk
 from tests.project_copy import Project, copy_project
+from tests.provenance import provenance
 
 ROOT = Path(__file__).parents[2]
 TABLE = ROOT / "data/accepted/pipeline/faults.csv"
@@ -131,24 +128,6 @@ def outcomes(project: Project, seed: int, only: list[str]) -> Iterator[Outcome]:
     for number, fault in enumerate(planned, 1):
         if not only or any(word in (fault.words, str(number)) for word in only):
             yield strike(project, number, fault, seed, spent)
-
-
-def provenance(seed: int) -> dict[str, str]:
-    """When, where and with what the faults struck."""
-    commit = subprocess.run(
-        ["git", "describe", "--always", "--dirty"], cwd=ROOT, capture_output=True, text=True
-    ).stdout.strip()
-    packages = ("snakemake", "numba", "numpy", "papermill")
-    return {
-        "command": "make faults",
-        "date": date.today().isoformat(),
-        "commit": commit,
-        "seed": str(seed),
-        "targets": " ".join(TARGETS),
-        "machine": f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores",
-        "versions": ", ".join(f"{name} {version(name)}" for name in packages)
-        + f", Python {platform.python_version()}",
-    }
 
 
 def write(path: Path, rows: list[dict[str, object]]) -> None:

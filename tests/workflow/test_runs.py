@@ -99,15 +99,33 @@ def test_what_if_has_its_own_folder(built):
     assert (built.folder / "data/results/transfer/indirect.csv").read_bytes() == original
 
 
-def test_a_truncated_results_file_is_named(built):
-    """A damaged Parquet file stops the figure with one line that names it; nothing else is lost."""
+def test_a_truncated_results_file_is_made_anew(built):
+    """The build says so in one line, and ends with the same bytes."""
     path = built.folder / "data/results/transfer/indirect.parquet"
-    intact = path.read_bytes()
+    figure = built.folder / "figures/transfer/fig-05.svg"
+    intact, drawn = path.read_bytes(), figure.read_bytes()
     path.write_bytes(intact[: len(intact) // 2])
+    done = built.snakemake("figures/transfer/fig-05.svg")
+    output = done.stdout + done.stderr
+    assert done.returncode == 0, output
+    (line,) = [line for line in output.splitlines() if line.startswith("smallsat: ")]
+    assert line.startswith("smallsat: data/results/transfer/indirect.parquet: changed after")
+    assert (path.read_bytes(), figure.read_bytes()) == (intact, drawn)
+
+
+def test_a_truncated_results_file_of_the_same_date_is_named(built):
+    """Damage that leaves the date stops the figure with one line that names the file."""
+    path = built.folder / "data/results/transfer/indirect.parquet"
+    figure = built.folder / "figures/transfer/fig-05.svg"
+    intact, before = path.read_bytes(), path.stat()
+    path.write_bytes(intact[: len(intact) // 2])
+    os.utime(path, ns=(before.st_atime_ns, before.st_mtime_ns))
+    figure.unlink()
     try:
         done = built.snakemake("figures/transfer/fig-05.svg")
     finally:
         path.write_bytes(intact)
+        os.utime(path, ns=(before.st_atime_ns, before.st_mtime_ns))
     output = done.stdout + done.stderr
     assert done.returncode != 0
     assert "smallsat: data/results/transfer/indirect.parquet: damaged results file" in output

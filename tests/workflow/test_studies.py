@@ -121,11 +121,13 @@ def test_a_killed_worker_is_flown_again(project):
 
 
 def test_a_half_written_shard_is_found_and_made_again(project):
-    """Half a file under a shard's name: one line names it, the next call makes it again."""
+    """Half a file of the same name and date: one line names it, the next call makes it again."""
     run = project.folder / "runs/undisturbed"
     whole = content(project, "undisturbed")
     shard = run / SHARDS / "rendezvous-sweep-2-of-3.parquet"
-    shard.write_bytes(shard.read_bytes()[: shard.stat().st_size // 2])
+    before = shard.stat()
+    shard.write_bytes(shard.read_bytes()[: before.st_size // 2])
+    os.utime(shard, ns=(before.st_atime_ns, before.st_mtime_ns))
     (run / TARGET).unlink()
     failed = project.snakemake(TARGET, *settings("undisturbed", 3))
     assert failed.returncode != 0

@@ -1,0 +1,117 @@
+"""What two builds have in common, byte by byte, kind by kind; and which digits moved."""
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from smallsat.results import read_table
+
+KINDS: Mapping[str, tuple[str, ...]] = {
+    "data": (".csv", ".parquet", ".json", ".accepted"),
+    "figure": (".svg", ".png", ".pdf"),
+    "notebook": (".ipynb",),
+    "page": (".html", ".css", ".js", ".xml", ".bib"),
+    "PDF": (".pdf",),
+}
+FOLDERS = ("data/results", "figures", "report/build")
+CLOCK = "holds measured seconds"
+STAMPS = "time stamps of papermill apart"
+# Keys of an executed notebook that tell the time.
+TIMES = ("start_time", "end_time", "duration", "iopub.execute_input", "iopub.status.busy")
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A file of both builds, or of one of them."""
+
+    name: str
+    kind: str
+    same: bool
+
+
+def files(build: Path) -> set[str]:
+    """Files of a build, relative to its folder."""
+    return {
+        path.relative_to(build).as_posix()
+        for folder in FOLDERS
+        for path in (build / folder).rglob("*")
+        if path.is_file() and path.name not in ("README.md", ".snakemake_timestamp")
+    }
+
+
+def compared(one: Path, other: Path) -> Iterator[Compared]:
+    """Every file of either build."""
+    ours, theirs = files(one), files(other)
+    for name in sorted(ours | theirs):
+        same = name in ours & theirs and _content(one / name) == _content(other / name)
+        yield Compared(name, kind(name), same)
+
+
+def kind(name: str) -> str:
+    """What a file is."""
+    place, suffix = name.partition("/")[0], Path(name).suffix
+    if suffix == ".pdf":
+        return "PDF" if place == "report" else "figure"
+    if suffix == ".csv" and place == "figures":
+        return "data"
+    return next((word for word, ends in KINDS.items() if suffix in ends), suffix)
+
+
+@dataclass(frozen=True)
+class Moved:
+    """Cells of a table that differ between two builds: how many, and by how much at most."""
+
+    table: str
+    column: str
+    cells: int
+    of: int
+    relative: float
+
+
+def moved_digits(one: Path, other: Path, name: str) -> Iterator[Moved]:
+    """Columns of a table in which builds differ; a text that differs counts as a whole."""
+    first, second = read_table(one / name), read_table(other / name)
+    if list(first) != list(second) or len(first) != len(second):
+        yield Moved(name, "(rows or columns)", 1, 1, float("inf"))
+        return
+    for column in first:
+        before, after = first[column], second[column]
+        if pd.api.types.is_float_dtype(before) and pd.api.types.is_float_dtype(after):
+            a, b = before.to_numpy(float), after.to_numpy(float)
+            differs = ~((a == b) | (np.isnan(a) & np.isnan(b)))
+            # Against the largest entry of the column, so that a zero has a measure.
+            scale = np.nanmax(np.abs(a)) if len(a) else 1.0
+            worst = np.max(np.abs(a - b)[differs], initial=0.0) / (scale or 1.0)
+        else:
+            differs = (before.astype(str) != after.astype(str)).to_numpy()
+            worst = float("nan")
+        if differs.any():
+            yield Moved(name, str(column), int(differs.sum()), len(differs), float(worst))
+
+
+def outcomes(build: Path, study: str) -> dict[str, str]:
+    """Verdict of every printed value, outcome of every proof and claim."""
+    found = {}
+    for table, column in (("verdicts", "verdict"), ("errata", "holds"), ("claims", "outcome")):
+        rows = read_table(build / f"data/results/{study}/{table}.csv", ("id",))
+        if column not in rows:
+            raise KeyError(f"{table}.csv has no column {column}: {list(rows)}")
+        found |= {f"{table}/{row['id']}": str(row[column]) for _, row in rows.iterrows()}
+    return found
+
+
+def _content(path: Path) -> Any:
+    if path.suffix != ".ipynb":
+        return path.read_bytes()
+    return json.dumps(_timeless(json.loads(path.read_bytes())), sort_keys=True)
+
+
+def _timeless(node: Any) -> Any:
+    if isinstance(node, dict):
+        return {key: _timeless(value) for key, value in node.items() if key not in TIMES}
+    return [_timeless(value) for value in node] if isinstance(node, list) else node

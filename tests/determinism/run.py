@@ -1,0 +1,167 @@
+"""Build twice as reprotest varies builds, then on another kernel of OpenBLAS: `make determinism`.
+
+The first two builds have to agree in every byte of every data file, figure, PDF and page, apart
+from what is listed with its reason; the third in every verdict, and the digits that move are
+listed.
+"""
+
+import argparse
+import os
+import sys
+import tempfile
+from collections import Counter
+from contextlib import ExitStack
+from dataclasses import asdict, replace
+from fnmatch import fnmatch
+from pathlib import Path
+
+import pandas as pd
+
+from smallsat.catalogue import read_catalogue
+from smallsat.strict_yaml import read_yaml
+from tests.determinism.bytes_compared import Compared, Moved, compared, moved_digits, outcomes
+from tests.determinism.variations import ONE, OTHER, build, copied, make_locale
+from tests.project_copy import Project
+from tests.provenance import provenance
+
+ROOT = Path(__file__).parents[2]
+TABLES = ROOT / "data/accepted/pipeline"
+# What may differ, and why.
+SECONDS = "measured seconds"
+EXCEPTIONS = {
+    "data/results/*/*seconds*.csv": SECONDS,
+    "data/results/*/timings.csv": SECONDS,
+}
+# These show the seconds of a study that has any.
+SHOWING = ("report/build/{study}.*",)
+
+
+def targets(studies: list[str]) -> list[str]:
+    """What is built: each study with its report, or the whole."""
+    return [word for study in studies for word in (study, f"{study}_report")] or ["all"]
+
+
+def run_folder(project: Project, configuration: str) -> Path:
+    """Folder of the run: that of the reproduction if no configuration is given."""
+    if not configuration:
+        return project.folder
+    name = read_yaml(ROOT / configuration)["run"]
+    return project.folder / "runs" / name
+
+
+def reason(file: Compared, timed: set[str]) -> str:
+    """Why a file may differ; empty if it may not."""
+    listed = EXCEPTIONS | {
+        pattern.format(study=study): f"prints {SECONDS}"
+        for study in (*timed, *["report"] * bool(timed))
+        for pattern in SHOWING
+    }
+    if timed:
+        listed["report/build/site/*"] = f"prints {SECONDS}"
+    return next((why for pattern, why in listed.items() if fnmatch(file.name, pattern)), "")
+
+
+def summary(found: list[Compared], timed: set[str], studies: str) -> list[dict[str, object]]:
+    """A row for each kind of file: how many, how many the same, which exceptions and why."""
+    rows = []
+    for kind in sorted({file.kind for file in found}):
+        ofs = [file for file in found if file.kind == kind]
+        excused = Counter(why for file in ofs if not file.same and (why := reason(file, timed)))
+        rows.append(
+            {
+                "studies": studies,
+                "kind": kind,
+                "files": len(ofs),
+                "identical": sum(file.same for file in ofs),
+                "excepted": sum(excused.values()),
+                "reason": "; ".join(excused),
+            }
+        )
+    return rows
+
+
+def kept(path: Path, studies: str, rows: list[dict[str, object]]) -> None:
+    """Exchange the rows of these studies in a tracked table."""
+    old = pd.read_csv(path, dtype=str, keep_default_na=False) if path.exists() else pd.DataFrame()
+    others = old[old["studies"] != studies] if len(old) else old
+    new = pd.DataFrame(rows).astype(str) if rows else pd.DataFrame(columns=old.columns)
+    pd.concat([others, new]).to_csv(path, index=False, lineterminator="\n")
+
+
+def main() -> None:
+    """Build, compare, keep the tables; exit with 1 where bytes or verdicts differ unexcused."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("studies", nargs="*", help="studies to build; all if none is given")
+    parser.add_argument("--configfile", default="", help="else the documents' own values")
+    parser.add_argument("--kernel", default="Haswell", help="another kernel of OpenBLAS")
+    parser.add_argument("--folder", type=Path, help="where the copies of the project go")
+    arguments = parser.parse_args()
+    if os.geteuid() != 0:
+        sys.exit("determinism: another user and an own order of files need root")
+    studies = arguments.studies or [study.name for study in read_catalogue(ROOT / "data/published")]
+    given = ["--configfile", arguments.configfile] * bool(arguments.configfile)
+    words = [*targets(arguments.studies), *given]
+    kernel = replace(ONE, path="kernel", cores=2, kernel=arguments.kernel)
+    with ExitStack() as stack:
+        place = stack.enter_context(
+            tempfile.TemporaryDirectory(dir=arguments.folder, prefix="determinism-")
+        )
+        builds = Path(place)
+        builds.chmod(0o755)
+        make_locale(builds, OTHER.locale)
+        runs = []
+        for how in (ONE, OTHER, kernel):
+            project = stack.enter_context(copied(ROOT, builds, how))
+            build(project, how, words)
+            runs.append(run_folder(project, arguments.configfile))
+            print(f"built in {how.path}", flush=True)
+        one, other, third = runs
+        timed = {study for study in studies if (one / f"data/results/{study}/timings.csv").exists()}
+        found = list(compared(one, other))
+        names = " ".join(studies)
+        rows = summary(found, timed, names)
+        unexcused = [file.name for file in found if not file.same and not reason(file, timed)]
+        moved: list[Moved] = [
+            move
+            for file in compared(one, third)
+            if not file.same and file.name.endswith((".csv", ".parquet"))
+            if not reason(file, timed)
+            for move in moved_digits(one, third, file.name)
+        ]
+        before = {key: value for study in studies for key, value in outcomes(one, study).items()}
+        after = {key: value for study in studies for key, value in outcomes(third, study).items()}
+        flipped = sorted(key for key in before | after if before.get(key) != after.get(key))
+    kept(TABLES / "determinism.csv", names, rows)
+    kept(
+        TABLES / "determinism-kernel.csv",
+        names,
+        [{"studies": names, "kernel": arguments.kernel} | asdict(move) for move in moved],
+    )
+    facts = (
+        provenance("make determinism", "snakemake", "numpy", "typst")
+        | {
+            "configuration": arguments.configfile or "the documents' own",
+            "targets": " ".join(targets(arguments.studies)),
+            "judged": str(len(before)),
+            "flipped": str(len(flipped)),
+        }
+        | {
+            f"varied: {word}": f"{value} / {OTHER.words()[word]}"
+            for word, value in ONE.words().items()
+            if value != OTHER.words()[word] or word == "hash seed"
+        }
+    )
+    kept(
+        TABLES / "determinism-provenance.csv",
+        names,
+        [{"studies": names, "item": item, "value": value} for item, value in facts.items()],
+    )
+    print(pd.DataFrame(rows).to_string(index=False))
+    print(*(f"differs: {name}" for name in unexcused), sep="\n")
+    print(f"on {arguments.kernel}: {len(flipped)} of {len(before)} outcomes other, {flipped}")
+    print(pd.DataFrame([asdict(move) for move in moved]).to_string(index=False))
+    raise SystemExit(bool(unexcused or flipped))
+
+
+if __name__ == "__main__":
+    main()
