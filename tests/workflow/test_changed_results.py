@@ -2,7 +2,6 @@
 
 import json
 import os
-import shutil
 from base64 import urlsafe_b64encode
 
 import pytest
@@ -13,8 +12,9 @@ from smallsat.workflow.changed_results import (
     UNKNOWN,
     distrusted,
     future_sources,
-    records,
-    remove,
+    make_anew,
+    note,
+    noted,
     told,
 )
 
@@ -28,7 +28,7 @@ def date(path, seconds):
     os.utime(path, (seconds, seconds))
 
 
-def note(run, name, inputs=()):
+def record(run, name, inputs=()):
     """The record that Snakemake keeps of a result."""
     folder = run / ".snakemake/metadata"
     name = urlsafe_b64encode(name.encode()).decode()
@@ -46,39 +46,61 @@ def result(tmp_path):
     path.parent.mkdir(parents=True)
     path.write_text("time,mode\n0,sun\n")
     date(path, MADE)
-    note(tmp_path, RESULT)
+    record(tmp_path, RESULT)
     return path
 
 
 def reasons(run):
-    return [why for _, why in distrusted(records(run), NOW)]
+    return [why for _, why in distrusted(run, noted(run), NOW)]
 
 
 def test_a_result_as_made_is_trusted(tmp_path, result):
-    """So is one that an archive has dated to the whole second."""
+    """So is one without a digest that an archive has dated to the whole second."""
     assert reasons(tmp_path) == []
     date(result, int(MADE))
     assert reasons(tmp_path) == []
 
 
 @pytest.mark.parametrize("content", ["", "time,mo", "time,mode\n0,nadir\n"])
-@pytest.mark.parametrize(("written", "why"), [(MADE + 9, CHANGED), (MADE - 9, CHANGED)])
-def test_a_result_of_another_date_is_not(tmp_path, result, content, written, why):
-    """Emptied, truncated, another's; older files that were put in its place too."""
+@pytest.mark.parametrize("written", [MADE - 9, MADE, MADE + 9])
+def test_other_bytes_are_noticed_whatever_their_date(tmp_path, result, content, written):
+    """Emptied, truncated, another's; older ones that were put in its place, or of the same date."""
+    note(tmp_path, [RESULT])
     result.write_text(content)
     date(result, written)
-    assert reasons(tmp_path) == [why]
+    assert reasons(tmp_path) == [CHANGED]
 
 
-def test_another_content_of_the_same_date_is_not_noticed(tmp_path, result):
-    """The limit of this: dates are compared, not bytes."""
-    result.write_text("")
-    date(result, MADE)
+def test_the_same_bytes_of_another_date_are_the_result(tmp_path, result):
+    """Touched, or copied without its date."""
+    note(tmp_path, [RESULT])
+    date(result, MADE + 9)
     assert reasons(tmp_path) == []
 
 
-def test_a_result_of_the_future_is_not(tmp_path, result):
+@pytest.mark.parametrize(
+    ("written", "why"), [(MADE - 9, [CHANGED]), (MADE, []), (MADE + 9, [CHANGED])]
+)
+def test_without_a_digest_the_date_decides(tmp_path, result, written, why):
+    """A result of a build that noted none."""
+    result.write_text("")
+    date(result, written)
+    assert reasons(tmp_path) == why
+
+
+def test_a_digest_without_a_record_is_enough(tmp_path, result):
+    """Snakemake's records are lost; it takes what is there, and so do we if the bytes are right."""
+    note(tmp_path, [RESULT, "gone.csv"])
+    record(tmp_path, RESULT).unlink()
+    assert reasons(tmp_path) == []
+    result.write_text("")
+    date(result, MADE)
+    assert reasons(tmp_path) == [CHANGED]
+
+
+def test_a_result_of_the_future_is_not_trusted(tmp_path, result):
     """The clock was set back."""
+    note(tmp_path, [RESULT])
     date(result, NOW + 1)
     assert reasons(tmp_path) == [FUTURE]
 
@@ -86,11 +108,16 @@ def test_a_result_of_the_future_is_not(tmp_path, result):
 @pytest.mark.parametrize("content", [b"", b'{"endtime": 17', b"\xff\xfe\x00", b"[]", b"{}", b"7"])
 def test_a_result_of_an_unreadable_record_is_not(tmp_path, result, content):
     """Snakemake would take some of these for no record, and end with a traceback for others."""
-    note(tmp_path, RESULT).write_bytes(content)
+    note(tmp_path, [RESULT])
+    file = record(tmp_path, RESULT)
+    file.write_bytes(content)
     assert reasons(tmp_path) == [UNKNOWN]
+    make_anew(tmp_path, [RESULT])
+    assert not file.exists()
 
 
-def test_a_page_changed_in_a_folder(tmp_path):
+@pytest.mark.parametrize("digests", [True, False])
+def test_a_page_changed_in_a_folder(tmp_path, digests):
     """A folder that is a result is as old as the youngest file in it."""
     page = tmp_path / "site/page.html"
     page.parent.mkdir()
@@ -98,29 +125,31 @@ def test_a_page_changed_in_a_folder(tmp_path):
     date(page, MADE - 1)
     (tmp_path / "site/.snakemake_timestamp").touch()
     date(tmp_path / "site/.snakemake_timestamp", MADE)
-    note(tmp_path, "site")
+    record(tmp_path, "site")
+    note(tmp_path, ["site"] * digests)
     assert reasons(tmp_path) == []
+    page.write_text("changed")
     date(page, MADE + 1)
     assert reasons(tmp_path) == [CHANGED]
 
 
-def test_what_is_not_trusted_goes_with_its_record(tmp_path, result):
-    """One line names it; names too long for one file, and files that are no record, do no harm."""
+def test_what_is_not_trusted_is_marked_as_snakemake_marks_a_killed_jobs(tmp_path, result):
+    """One line names it; the file stays until it is made; what is no record does no harm."""
     long = "figures/" + "/".join(["a" * 100] * 3)
     (tmp_path / long).parent.mkdir(parents=True)
     (tmp_path / long).touch()
     date(tmp_path / long, MADE + 1)
-    note(tmp_path, long)
+    kept = record(tmp_path, long)
     (tmp_path / ".snakemake/metadata/no record").touch()
     date(result, MADE + 1)
-    found = list(distrusted(records(tmp_path), NOW))
-    assert {record.result for record, _ in found} == {result, tmp_path / long}
+    found = list(distrusted(tmp_path, noted(tmp_path), NOW))
+    assert sorted(name for name, _ in found) == sorted((RESULT, long))
     (line,) = told(found)
     assert line.endswith(f"(and 1 more): {CHANGED}; to be made anew")
-    for record, _ in found:
-        remove(record)
-    assert not result.exists() and not records(tmp_path)
-    shutil.rmtree(tmp_path / "figures")
+    make_anew(tmp_path, [name for name, _ in found])
+    metadata = tmp_path / ".snakemake/metadata"
+    mark = tmp_path / ".snakemake/incomplete" / kept.relative_to(metadata)
+    assert mark.exists() and kept.exists() and result.exists()
 
 
 def test_sources_of_the_future(tmp_path, result):
@@ -130,5 +159,5 @@ def test_sources_of_the_future(tmp_path, result):
     date(tmp_path / "old.py", NOW - 1)
     date(tmp_path / "new.py", NOW + 1)
     date(result, NOW + 1)
-    note(tmp_path, RESULT, ["old.py", "new.py", "gone.py", RESULT])
-    assert future_sources(records(tmp_path), NOW) == [tmp_path / "new.py"]
+    record(tmp_path, RESULT, ["old.py", "new.py", "gone.py", RESULT])
+    assert future_sources(tmp_path, noted(tmp_path), NOW) == [tmp_path / "new.py"]

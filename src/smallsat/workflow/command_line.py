@@ -9,12 +9,19 @@ import os
 import sys
 import time
 from argparse import ArgumentParser
-from collections.abc import Callable, Sequence
+from collections.abc import Awaitable, Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 from smallsat.errors import InputError
-from smallsat.workflow.changed_results import distrusted, future_sources, records, remove, told
+from smallsat.workflow.changed_results import (
+    distrusted,
+    future_sources,
+    make_anew,
+    note,
+    noted,
+    told,
+)
 from smallsat.workflow.isolation import isolated
 from smallsat.workflow.one_build import BUILD, held
 
@@ -116,27 +123,26 @@ def unlimited(make_parser: Callable[..., ArgumentParser]) -> Callable[..., Argum
 def careful(execute: Callable[..., bool]) -> Callable[..., bool]:
     """Snakemake's execution of a workflow, alone in its folder and upon results that are as made.
 
-    What is not as its job made it is removed first, so that it is made anew, and sources that are
+    What is not as its job made it is marked first, so that it is made anew, and sources that are
     dated later than now are dated now: the clock was set back.
     """
 
     def executing(workflow: Any, executor_plugin: Any, *arguments: Any, **named: Any) -> bool:
         run, kind = Path(), executor_plugin.common_settings
         if kind.dryrun_exec:
-            for line in told(distrusted(records(run), time.time())):
+            for line in told(distrusted(run, noted(run), time.time())):
                 print(f"smallsat: {line}", file=sys.stderr)
             return execute(workflow, executor_plugin, *arguments, **named)
         try:
             with held(run) as now:
                 # --touch takes everything as made.
-                known = [] if kind.touch_exec else records(run)
-                found = list(distrusted(known, now))
+                known = [] if kind.touch_exec else noted(run)
+                found = list(distrusted(run, known, now))
                 for line in told(found):
                     print(f"smallsat: {line}", file=sys.stderr)
-                for path in future_sources(known, now):
+                for path in future_sources(run, known, now):
                     os.utime(path)
-                for record, _ in found:
-                    remove(record)
+                make_anew(run, [name for name, _ in found])
                 return execute(workflow, executor_plugin, *arguments, **named)
         except InputError as error:
             sys.exit(f"smallsat: {error}")
@@ -144,9 +150,23 @@ def careful(execute: Callable[..., bool]) -> Callable[..., bool]:
     return executing
 
 
+def noting(finished: Callable[..., Awaitable[None]]) -> Callable[..., Awaitable[None]]:
+    """Snakemake's record of a job that has ended, with a digest of each of its results.
+
+    The digest comes first: until the record is there, the results count as those of a killed job.
+    """
+
+    async def noting_finished(persistence: Any, job: Any) -> None:
+        note(Path(), map(str, job.output))
+        await finished(persistence, job)
+
+    return noting_finished
+
+
 def main() -> None:
     """Run Snakemake with the words of this call."""
     from snakemake import cli
+    from snakemake.persistence.file import FilePersistence
     from snakemake.workflow import Workflow
 
     words = understood(sys.argv[1:])
@@ -154,6 +174,7 @@ def main() -> None:
     sys.argv = ["snakemake", *words]
     cli.get_argument_parser = unlimited(cli.get_argument_parser)
     Workflow.execute = careful(Workflow.execute)
+    FilePersistence.finished = noting(FilePersistence.finished)
     os.environ[BUILD] = str(os.getpid())
     cli.main()
 
