@@ -10,6 +10,7 @@ import os
 import sys
 import tempfile
 from collections import Counter
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
 from dataclasses import asdict, replace
 from fnmatch import fnmatch
@@ -109,13 +110,11 @@ def main() -> None:
         builds = Path(place)
         builds.chmod(0o755)
         make_locale(builds, OTHER.locale)
-        runs = []
-        for how in (ONE, OTHER, kernel):
-            project = stack.enter_context(copied(ROOT, builds, how))
-            build(project, how, words)
-            runs.append(run_folder(project, arguments.configfile))
-            print(f"built in {how.path}", flush=True)
-        one, other, third = runs
+        all_three = (ONE, OTHER, kernel)
+        projects = [stack.enter_context(copied(ROOT, builds, how)) for how in all_three]
+        with ThreadPoolExecutor() as pool:
+            list(pool.map(build, projects, all_three, [words] * 3))
+        one, other, third = (run_folder(project, arguments.configfile) for project in projects)
         timed = {study for study in studies if (one / f"data/results/{study}/timings.csv").exists()}
         found = list(compared(one, other))
         names = " ".join(studies)

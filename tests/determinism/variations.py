@@ -123,14 +123,14 @@ def copied(root: Path, builds: Path, how: Circumstances) -> Iterator[Project]:
 
 def build(project: Project, how: Circumstances, words: list[str]) -> None:
     """Build targets under the circumstances; the output is shown if the build fails."""
+    # Reads what root may read: Python itself may lie in root's home.
+    reads = [f"--{kind}-caps=+dac_read_search" for kind in ("inh", "ambient")]
+    user = ["setpriv", f"--reuid={how.user}", f"--regid={how.user}", "--clear-groups", *reads]
     call = [str(project.folder / ".venv/bin/snakemake"), f"--cores={how.cores}", *words]
     done = subprocess.run(
-        call,
+        [*user, *call],
         cwd=project.folder,
         env=project.environment,
-        user=how.user,
-        group=how.user,
-        extra_groups=[],
         umask=how.umask,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
