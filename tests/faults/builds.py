@@ -84,8 +84,9 @@ def start(project: Project, run: str) -> Build:
     """Start a build as a person would, in a shell."""
     words = " ".join(f"'{word}'" for word in project.command(*TARGETS, *settings(run)))
     shell = subprocess.Popen(
-        # The shell stays, to be killed.
-        ["bash", "-c", f"{words}; exit $?"],
+        # The shell stays, to be killed. Where it was itself begun in the background it would not
+        # hear of an interrupt.
+        ["env", "--default-signal=INT", "bash", "-c", f"{words}; exit $?"],
         cwd=project.folder,
         env=project.environment,
         stdout=subprocess.PIPE,
