@@ -62,7 +62,7 @@ def kill_snakemake(build: Build, random: Random) -> str:
     assert process is not None
     jobs = len(build.workers())
     process.kill()
-    return f"{jobs} jobs under way"
+    return f"jobs under way: {jobs}"
 
 
 def kill_shell(build: Build, random: Random) -> str:
@@ -75,7 +75,7 @@ def interrupt(build: Build, random: Random) -> str:
     """Ctrl-C: SIGINT to all that run in the foreground."""
     jobs = len(build.workers())
     os.killpg(build.shell.pid, signal.SIGINT)
-    return f"{jobs} jobs under way"
+    return f"jobs under way: {jobs}"
 
 
 def fill_disk(build: Build, random: Random) -> str:
@@ -141,7 +141,7 @@ def stop(build: Build, random: Random) -> str:
     """SIGKILL to everything, as when the power fails."""
     done = len(_results(build))
     os.killpg(build.shell.pid, signal.SIGKILL)
-    return f"{done} files made"
+    return f"files made: {done}"
 
 
 def set_clock_back(build: Build, random: Random) -> str:
@@ -157,7 +157,7 @@ def set_clock_back(build: Build, random: Random) -> str:
             content["endtime"] += DAY_S
             record.write_text(json.dumps(content))
             os.utime(record, ns=(status.st_atime_ns, status.st_mtime_ns))
-    return f"{len(_results(build))} files made"
+    return f"files made: {len(_results(build))}"
 
 
 def stop_and_set_clock_back(build: Build, random: Random) -> str:
@@ -169,7 +169,7 @@ def stop_and_set_clock_back(build: Build, random: Random) -> str:
 
 def let_it_run(build: Build, random: Random) -> str:
     """Nothing: the next build begins beside this one."""
-    return f"{len(build.workers())} jobs under way"
+    return f"jobs under way: {len(build.workers())}"
 
 
 @contextmanager
