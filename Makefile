@@ -9,7 +9,7 @@ export PIP_USER := 0
 PIP := $(VENV)/bin/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := all
-.PHONY: all test test-site explain compare accept what-ifs lint animations flight benchmark benchmark-baseline faults determinism lock clean lab dag
+.PHONY: all test test-site explain compare accept what-ifs lint animations flight benchmark benchmark-baseline faults determinism lock clean lab dag scale
 
 all: $(VENV)/installed
 	@snakemake all
@@ -109,6 +109,9 @@ determinism: CONFIG ?= config/quick.yaml
 determinism: $(VENV)/installed
 	@command -v disorderfs localedef >/dev/null || { echo "make: disorderfs and localedef not found; install them (Debian: apt-get install disorderfs locales)" >&2; exit 2; }
 	@python -m tests.determinism.run $(ONLY) $(if $(CONFIG),--configfile $(CONFIG))
+# How far the sweeps of rendezvous go, measured and projected: half an hour of one core, tracked tables.
+scale: $(VENV)/installed
+	python benchmarks/scale.py
 
 # The side-by-side baseline of benchmarks/slew_speed.py; nothing else uses it.
 # Without its dependencies, which would exchange the project's own CasADi.
