@@ -3,7 +3,7 @@
 ``make scale`` runs it. A size is worked through by the commands of the workflow's own rules, one
 process at a time: the initial states, each shard, the join. Seconds are those of the processor, so
 that other work on the machine does not count; memory is the largest resident size of any process.
-What a cluster adds to each job was timed by ``make test-slurm``.
+What a cluster adds to each job is taken from what ``make test-slurm`` has written.
 """
 
 import argparse
@@ -34,12 +34,14 @@ ROOT = Path(__file__).parents[1]
 TABLES = ROOT / "data/accepted/pipeline"
 FOLDER = ROOT / "runs/scale"
 SWEEP = "rendezvous-sweep"
-# Four of the sweep's cases, the quickest, so that the largest size is done within half an hour of one core.
+# The quickest of the sweep's cases: the largest size is done within half an hour of one core.
 CASES = {"horizons": [15, 30], "sample_times_s": [50.0, 60.0]}
 # Initial states, and in how many shards: the document's number, and up to a hundred times as many.
 SIZES = {500: 1, 1000: 1, 2000: 1, 5000: 2, 50_000: 20}
 # A shard is sized to minutes, and the configuration allows so many of them.
 SHORTEST_SHARD_S, LONGEST_SHARD_S, MOST_SHARDS = 60.0, 300.0, 100
+# Flown first, so that no size's seconds hold those of the compiler.
+WARM_UP = 10
 PROJECTED_STATES, PROJECTED_NODES = (5000, 50_000, 1_000_000), (1, 2, 4, 8, 16, 32, 64)
 
 
@@ -85,9 +87,8 @@ def measured(states: int, count: int, limit_s: float) -> dict[str, float]:
             words = ("--part", SWEEP, "--shard", str(shard))
             shards.append(step(states, "manoeuvres", *words))
     whole = len(shards) == count
-    join = (
-        step(states, "joined", "--part", SWEEP, "--shard", f"{count}-of-{count}") if whole else None
-    )
+    last = str(Shard(count, count))
+    join = step(states, "joined", "--part", SWEEP, "--shard", last) if whole else None
     flown = sum(
         len(read_table(path)) for path in sorted((folder / "studies/shards").glob("*.parquet"))
     )
@@ -105,6 +106,11 @@ def measured(states: int, count: int, limit_s: float) -> dict[str, float]:
         "join_MiB": join.memory_MiB if join else math.nan,
         "table_MiB": table.stat().st_size / 2.0**20 if whole else math.nan,
     }
+
+
+def job_s() -> float:
+    """Seconds that a cluster adds to a job, as ``make test-slurm`` has seen them."""
+    return float(read_table(TABLES / "slurm.csv")["overhead_s"].iloc[0])
 
 
 def fit(rows: Sequence[dict[str, float]], what: str) -> tuple[np.ndarray, float]:
@@ -170,7 +176,7 @@ def provenance(arguments: argparse.Namespace) -> dict[str, str]:
         ),
         "seed": str(section.studies.seed),
         "cases": json.dumps(CASES),
-        "job_s": f"{arguments.job_s:g}",
+        "job_s": f"{job_s():g}",
         "price_per_node_hour": f"{arguments.price:g}",
         "command": "make scale",
     }
@@ -186,15 +192,15 @@ def main() -> None:
     """Measure, project, and write the three tables."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--limit-min", type=float, default=30.0, help="processor minutes a size")
-    parser.add_argument("--job-s", type=float, default=16.0, help="what a cluster adds to a job, s")
     parser.add_argument("--price", type=float, default=0.1, help="of a node for an hour")
     arguments = parser.parse_args()
+    measured(WARM_UP, 1, math.inf)
     rows = []
     for states, shards in SIZES.items():
         rows.append(measured(states, shards, 60.0 * arguments.limit_min))
         print(", ".join(f"{key} {value:g}" for key, value in rows[-1].items()), flush=True)
     write("scale.csv", rows)
-    write("scale-projected.csv", list(projected(rows, arguments.job_s, arguments.price)))
+    write("scale-projected.csv", list(projected(rows, job_s(), arguments.price)))
     found = provenance(arguments)
     for what in ("states_s", "shards_s", "join_s"):
         (slope, start), residual = fit(rows, what)
