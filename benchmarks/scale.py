@@ -13,9 +13,11 @@ import json
 import math
 import os
 import platform
+import shlex
 import shutil
 import subprocess
 import sys
+import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
@@ -39,7 +41,7 @@ CASES = {"horizons": [15, 30], "sample_times_s": [50.0, 60.0]}
 # Initial states, and in how many shards: the document's number, and up to a hundred times as many.
 SIZES = {500: 1, 1000: 1, 2000: 1, 5000: 2, 50_000: 20}
 # A shard is sized to minutes, and the configuration allows so many of them.
-SHORTEST_SHARD_S, LONGEST_SHARD_S, MOST_SHARDS = 60.0, 300.0, 100
+SHORTEST_SHARD_S, LONGEST_SHARD_S, MOST_SHARDS = 60.0, 600.0, 100
 # Flown first, so that no size's seconds hold those of the compiler.
 WARM_UP = 10
 PROJECTED_STATES, PROJECTED_NODES = (5000, 50_000, 1_000_000), (1, 2, 4, 8, 16, 32, 64)
@@ -77,13 +79,14 @@ def step(states: int, name: str, *words: str) -> Cost:
 
 
 def measured(states: int, count: int, limit_s: float) -> dict[str, float]:
-    """One size, in so many shards; no shard begins once they have taken the limit together."""
+    """One size, in so many shards, of which none begins when the limit has passed on the clock."""
+    began = time.monotonic()
     folder = FOLDER / str(states)
     shutil.rmtree(folder, ignore_errors=True)
     drawn = step(states, "initial_states")
     shards: list[Cost] = []
     for shard in Shard.all(count):
-        if sum(one.seconds for one in shards) < limit_s:
+        if time.monotonic() - began < limit_s:
             words = ("--part", SWEEP, "--shard", str(shard))
             shards.append(step(states, "manoeuvres", *words))
     whole = len(shards) == count
@@ -113,15 +116,38 @@ def job_s() -> float:
     return float(read_table(TABLES / "slurm.csv")["overhead_s"].iloc[0])
 
 
-def fit(rows: Sequence[dict[str, float]], what: str) -> tuple[np.ndarray, float]:
-    """Seconds as a linear function of the states: coefficients, and the largest relative residual.
+@dataclass(frozen=True)
+class Line:
+    """Processor seconds as ``each`` for one of something, after ``start`` to begin with.
 
-    Only sizes that were worked through in full count; all weigh the same in relative terms.
+    ``residual`` is the largest relative departure of a measured size from it.
     """
-    full = [row for row in rows if row["shards_run"] == row["shards"]]
-    states, seconds = (np.array([row[key] for row in full]) for key in ("states", what))
-    line = np.polyfit(states, seconds, 1, w=1.0 / seconds)
-    return line, float(np.max(np.abs(np.polyval(line, states) / seconds - 1.0)))
+
+    each: float
+    start: float
+    residual: float
+
+    def __call__(self, number: float, starts: int = 1) -> float:
+        """Seconds for so many of them, begun so many times."""
+        return self.each * number + self.start * starts
+
+
+def line(rows: Sequence[dict[str, float]], what: str, of: str, starts: str = "") -> Line:
+    """The line by least squares of relative residuals, through all sizes that have such seconds."""
+    there = [row for row in rows if not math.isnan(row[what])]
+    features = np.array([[row[of], row[starts] if starts else 1.0] for row in there])
+    seconds = np.array([row[what] for row in there])
+    found = np.linalg.lstsq(features / seconds[:, None], np.ones(len(there)), rcond=None)[0]
+    return Line(*map(float, found), float(np.max(np.abs(features @ found / seconds - 1.0))))
+
+
+def lines(rows: Sequence[dict[str, float]]) -> dict[str, Line]:
+    """What drawing takes a state, flying a manoeuvre and a shard, and joining a manoeuvre."""
+    return {
+        "states": line(rows, "states_s", "states"),
+        "shards": line(rows, "shards_s", "manoeuvres", "shards_run"),
+        "join": line(rows, "join_s", "manoeuvres"),
+    }
 
 
 def projected(
@@ -138,25 +164,32 @@ def projected(
     price
         Of a node for an hour.
     """
-    lines = {what: fit(rows, what)[0] for what in ("states_s", "shards_s", "join_s")}
-    cores = os.cpu_count() or 1
+    found, cores = lines(rows), os.cpu_count() or 1
+    cases = rows[0]["manoeuvres"] / rows[0]["states"]
     for states in PROJECTED_STATES:
-        drawn, work, join = (float(np.polyval(line, states)) for line in lines.values())
+        manoeuvres = cases * states
+        work = found["shards"].each * manoeuvres
         for nodes in PROJECTED_NODES:
             slots = nodes * cores
+
+            def flying_s(shards: int, slots: int = slots, number: float = manoeuvres) -> float:
+                shard_s = found["shards"](number / shards)
+                return math.ceil(shards / slots) * (shard_s + job_s)
+
             most = min(MOST_SHARDS, max(1, math.floor(work / SHORTEST_SHARD_S)))
-            shards = min(max(slots, math.ceil(work / LONGEST_SHARD_S)), most)
-            rounds = math.ceil(shards / slots)
-            seconds = drawn + join + 2.0 * job_s + rounds * (work / shards + job_s)
+            least = min(most, math.ceil(work / LONGEST_SHARD_S))
+            shards = min(range(least, most + 1), key=flying_s)
+            alone = found["states"](states) + found["join"](manoeuvres)
+            hours = (alone + flying_s(shards)) / 3600.0
             yield {
                 "states": states,
                 "nodes": nodes,
                 "cores": slots,
                 "shards": shards,
-                "shard_s": work / shards,
-                "hours": seconds / 3600.0,
-                "node_hours": nodes * seconds / 3600.0,
-                "price": nodes * seconds / 3600.0 * price,
+                "shard_s": found["shards"](manoeuvres / shards),
+                "hours": hours,
+                "node_hours": nodes * hours,
+                "price": nodes * hours * price,
             }
 
 
@@ -178,7 +211,7 @@ def provenance(arguments: argparse.Namespace) -> dict[str, str]:
         "cases": json.dumps(CASES),
         "job_s": f"{job_s():g}",
         "price_per_node_hour": f"{arguments.price:g}",
-        "command": "make scale",
+        "command": shlex.join(["python", "benchmarks/scale.py", *sys.argv[1:]]),
     }
 
 
@@ -191,7 +224,9 @@ def write(name: str, rows: Sequence[dict[str, float]]) -> None:
 def main() -> None:
     """Measure, project, and write the three tables."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--limit-min", type=float, default=30.0, help="processor minutes a size")
+    parser.add_argument(
+        "--limit-min", type=float, default=60.0, help="minutes, after which no shard begins"
+    )
     parser.add_argument("--price", type=float, default=0.1, help="of a node for an hour")
     arguments = parser.parse_args()
     measured(WARM_UP, 1, math.inf)
@@ -202,13 +237,8 @@ def main() -> None:
     write("scale.csv", rows)
     write("scale-projected.csv", list(projected(rows, job_s(), arguments.price)))
     found = provenance(arguments)
-    for what in ("states_s", "shards_s", "join_s"):
-        (slope, start), residual = fit(rows, what)
-        found |= {
-            f"{what} per 1000 states": f"{1000.0 * slope:.4g}",
-            f"{what} for none": f"{start:.4g}",
-            f"{what} largest residual": f"{residual:.2g}",
-        }
+    for what, fitted in lines(rows).items():
+        found |= {f"{what} {name}": f"{value:.3g}" for name, value in vars(fitted).items()}
     with (TABLES / "scale-provenance.csv").open("w", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(("item", "value"))
