@@ -9,7 +9,7 @@ export PIP_USER := 0
 PIP := $(VENV)/bin/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := all
-.PHONY: all test test-site explain compare accept what-ifs lint animations flight benchmark benchmark-baseline faults determinism lock clean lab dag scale
+.PHONY: all test test-site explain compare accept what-ifs lint animations flight benchmark benchmark-baseline faults determinism lock clean lab dag scale test-slurm
 
 all: $(VENV)/installed
 	@snakemake all
@@ -44,6 +44,13 @@ test-site: $(VENV)/browser
 $(VENV)/browser: requirements.browser.lock $(VENV)/installed
 	$(PIP) --require-hashes -r requirements.browser.lock
 	@touch $@
+# The profile slurm on a Slurm of one node on this machine, installed where that is allowed; what it
+# saw goes into a tracked table.
+test-slurm: $(VENV)/installed
+	$(PIP) --require-hashes -r requirements.slurm.lock
+	@trap 'tests/workflow/cluster stop runs/cluster' EXIT; \
+	tests/workflow/cluster start runs/cluster && python -m pytest tests/workflow/test_slurm.py && \
+	cp runs/cluster/slurm.csv data/accepted/pipeline/
 
 # All that is known of a printed value, erratum, claim, table or figure; RUN=runs/<name> for a what-if.
 explain: $(VENV)/installed
@@ -110,8 +117,10 @@ determinism: $(VENV)/installed
 	@command -v disorderfs localedef >/dev/null || { echo "make: disorderfs and localedef not found; install them (Debian: apt-get install disorderfs locales)" >&2; exit 2; }
 	@python -m tests.determinism.run $(ONLY) $(if $(CONFIG),--configfile $(CONFIG))
 # How far the sweeps of rendezvous go, measured and projected: half an hour of one core, tracked tables.
+# How far a sweep of rendezvous goes: half an hour of one core; then projected, from tracked tables.
 scale: $(VENV)/installed
 	python benchmarks/scale.py
+	python benchmarks/scale_projection.py
 
 # The side-by-side baseline of benchmarks/slew_speed.py; nothing else uses it.
 # Without its dependencies, which would exchange the project's own CasADi.
@@ -123,6 +132,7 @@ lock:
 	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.in -o requirements.lock
 	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.browser.in -c requirements.lock -o requirements.browser.lock
 	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.lab.in -c requirements.lock -o requirements.lab.lock
+	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.slurm.in -c requirements.lock -o requirements.slurm.lock
 
 clean:
 	rm -rf report/build runs logs .snakemake .cache
