@@ -84,6 +84,21 @@ def test_a_failed_job_shows_the_end_of_its_log_and_how_to_retry_it(build):
     assert build.progress.end() == ["[1/3] failed, as told above: mars: mars_a_1"]
 
 
+def test_a_job_that_is_tried_again_has_not_failed(build):
+    """As on a cluster whose node went down: it is awaited again, with all that wait for it."""
+    say = build.progress.lines
+    say(begin(1, "mars_a_1", 0.0))
+    failed = say(event(LogEvent.JOB_ERROR, 60.0, jobid=1, rule_name="mars_a_1", log=[]))
+    assert failed[0] == "[0/3] FAILED mars: mars_a_1"
+    assert build.progress.end() == ["[0/3] failed, as told above: mars: mars_a_1"]
+    say(begin(1, "mars_a_1", 60.0))
+    say(begin(2, "mars_b", 60.0))
+    assert build.progress.end() == []
+    assert say(event(LogEvent.JOB_FINISHED, 360.0, job_id=2)) == [
+        "[1/3] mars: mars_b (5 min), about 6 min left"
+    ]
+
+
 def test_what_is_no_progress_is_left_to_snakemake(build):
     """Other errors too; that a command failed is told with its log, not in Snakemake's words."""
     assert build.progress.lines(event(None)) is None

@@ -5,6 +5,7 @@ import shlex
 import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from graphlib import TopologicalSorter
 from logging import LogRecord
 from pathlib import Path
 from typing import Any
@@ -55,7 +56,7 @@ class Progress:
     running
         Jobs that have begun, by Snakemake's number.
     failed
-        Titles of the jobs that failed.
+        Titles of the jobs that failed and have not begun anew, by rule.
     """
 
     words: list[str] = field(default_factory=lambda: sys.argv[1:])
@@ -66,7 +67,7 @@ class Progress:
     expected: dict[str, float] = field(default_factory=dict)
     seen: dict[str, float] = field(default_factory=dict)
     running: dict[int, Job] = field(default_factory=dict)
-    failed: list[str] = field(default_factory=list)
+    failed: dict[str, str] = field(default_factory=dict)
 
     def lines(self, record: LogRecord) -> list[str] | None:
         """Take note of an event; what there is to say about it, or None if it is no such event."""
@@ -85,7 +86,7 @@ class Progress:
 
     def end(self) -> list[str]:
         """What there is to say when all is over."""
-        return [f"{self._count()} failed, as told above: {', '.join(self.failed)}"] * bool(
+        return [f"{self._count()} failed, as told above: {', '.join(self.failed.values())}"] * bool(
             self.failed
         )
 
@@ -128,6 +129,7 @@ class Progress:
 
     def _begin(self, record: Any) -> Iterator[str]:
         title = record.rule_msg or record.rule_name
+        self.failed.pop(record.rule_name, None)
         self.running[record.jobid] = Job(
             record.rule_name, title, record.created, bool(record.output)
         )
@@ -143,8 +145,7 @@ class Progress:
     def _fail(self, record: Any) -> Iterator[str]:
         job = self.running.pop(record.jobid, None)
         title = job.title if job else record.rule_name
-        self.failed.append(title)
-        self._give_up(record.rule_name)
+        self.failed[record.rule_name] = title
         yield f"{self._count()} FAILED {title}"
         for log in record.log:
             lines = Path(log).read_text(errors="replace").splitlines() if Path(log).exists() else []
@@ -157,18 +158,20 @@ class Progress:
         """Nothing of a command that failed, since `_fail` tells it; other errors are left."""
         return iter(()) if "CalledProcessError in file" in record.getMessage() else None
 
-    def _give_up(self, rule: str) -> None:
-        """Wait no longer for a job, nor for any that waits for it."""
-        self.waits.pop(rule, None)
-        for other in [other for other, waits in self.waits.items() if rule in waits]:
-            self._give_up(other)
+    def _awaited(self) -> dict[str, set[str]]:
+        """The jobs of the build without those that failed and those that wait for one of them."""
+        lost = set(self.failed)
+        for job in TopologicalSorter(self.waits).static_order():
+            if lost & self.waits.get(job, set()):
+                lost.add(job)
+        return {job: others for job, others in self.waits.items() if job not in lost}
 
     def _count(self) -> str:
         return f"[{len(self.seen):{len(str(self.total))}}/{self.total}]"
 
     def _left(self, now: float) -> str:
         elapsed = {job.rule: now - job.began for job in self.running.values()}
-        left = seconds_left(self.waits, self.expected, self.seen, elapsed, self.cores)
+        left = seconds_left(self._awaited(), self.expected, self.seen, elapsed, self.cores)
         if left is None:
             return "no estimate"
         return f"about {duration(left)} left" if left >= 60 else "less than a minute left"
