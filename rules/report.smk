@@ -22,6 +22,26 @@ TEMPLATES = (
         for path in sorted((ROOT / "data/accepted/pipeline").glob("*.csv"))
     ]
 )
+TEMPLATES = [
+    project(path)
+    for path in (
+        *(
+            path.relative_to(ROOT)
+            for folder in ("parts", "chapters", "summaries", "pipeline")
+            for path in sorted((ROOT / "report" / folder).glob("*.typ"))
+        ),
+        "report/style.css",
+        "report/references.yaml",
+        "CITATION.cff",
+        "requirements.lock",
+        # What the last chapter shows.
+        "data/accepted/seconds.csv",
+        *(
+            path.relative_to(ROOT)
+            for path in sorted((ROOT / "data/accepted/pipeline").glob("*.csv"))
+        ),
+    )
+]
 TIMINGS = [path for study in STUDIES for path in MADE[study] if Path(path).name == "timings.csv"]
 REPORTS = {"report": STUDIES} | {study: [study] for study in STUDIES}
 

@@ -97,6 +97,7 @@ def project(tmp_path_factory):
     )
     # What the last chapter shows.
     shutil.copytree(PROJECT / "data/accepted/pipeline", folder / "data/accepted/pipeline")
+    shutil.copy(PROJECT / "data/accepted/seconds.csv", folder / "data/accepted")
     # Title page and packages.
     for name in ("CITATION.cff", "requirements.lock"):
         shutil.copy(PROJECT / name, folder)
