@@ -20,6 +20,7 @@ from smallsat.strict_yaml import read_yaml
 from smallsat.workflow.figures import drawn, read_runs
 from smallsat.workflow.isolation import isolate
 from smallsat.workflow.run import read_run
+from smallsat.workflow.seconds import accepted
 from smallsat.workflow.sources import named_modules, notebook_modules, source_files
 from smallsat.workflow.targets import refusal
 
@@ -84,4 +85,5 @@ rule all:
         "Everything is there; the report lies in report/build"
 
 
+include: "rules/local.smk"
 include: "rules/unknown.smk"

@@ -44,14 +44,21 @@ def test_a_moved_checkout_makes_its_environment_anew(moved):
     assert "-m venv --clear" not in moved.run("make -n").stdout
 
 
-def test_flight_says_what_is_missing_where_it_may_not_install(root, tmp_path):
-    """Without emulators, and for a user who is not root: one line that names them."""
-    for command in ("bash", "dirname"):
-        (tmp_path / command).symlink_to(shutil.which(command))
+@pytest.mark.parametrize(
+    ("command", "lacking"),
+    [
+        (["flight/install"], "qemu-system-arm"),
+        (["tests/workflow/cluster", "start", "runs/cluster"], "slurmctld"),
+    ],
+)
+def test_what_is_missing_is_said_where_it_may_not_be_installed(root, tmp_path, command, lacking):
+    """Without emulators or Slurm, and for a user who is not root: one line that names them."""
+    for name in ("bash", "dirname", "realpath"):
+        (tmp_path / name).symlink_to(shutil.which(name))
     fake(tmp_path, "id", "echo 1000")
     done = subprocess.run(
-        [root / "flight/install"], env={"PATH": str(tmp_path)}, capture_output=True, text=True
+        command, cwd=root, env={"PATH": str(tmp_path)}, capture_output=True, text=True
     )
     assert done.returncode == 2
     (line,) = done.stderr.splitlines()
-    assert "qemu-system-arm" in line and "install (Debian)" in line
+    assert lacking in line and "install (Debian)" in line
