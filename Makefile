@@ -44,6 +44,7 @@ test-site: $(VENV)/browser
 $(VENV)/browser: requirements.browser.lock $(VENV)/installed
 	$(PIP) --require-hashes -r requirements.browser.lock
 	@touch $@
+
 # The profile slurm on a Slurm of one node on this machine, installed where that is allowed; what it
 # saw goes into a tracked table.
 test-slurm: $(VENV)/installed
@@ -116,7 +117,7 @@ determinism: CONFIG ?= config/quick.yaml
 determinism: $(VENV)/installed
 	@command -v disorderfs localedef >/dev/null || { echo "make: disorderfs and localedef not found; install them (Debian: apt-get install disorderfs locales)" >&2; exit 2; }
 	@python -m tests.determinism.run $(ONLY) $(if $(CONFIG),--configfile $(CONFIG))
-# How far the sweeps of rendezvous go, measured and projected: half an hour of one core, tracked tables.
+
 # How far a sweep of rendezvous goes: half an hour of one core; then projected, from tracked tables.
 scale: $(VENV)/installed
 	python benchmarks/scale.py

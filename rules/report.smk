@@ -1,27 +1,6 @@
 # The report: its content collected from the results of a run, typeset as a PDF and written as a web site.
 # It is built whatever the verdicts are, so that a wrong one can be read about. Each study has a report
 # of its own, for a what-if that leaves the others as they are.
-TEMPLATES = (
-    [
-        project(path.relative_to(ROOT))
-        for folder in ("parts", "chapters", "summaries", "pipeline")
-        for path in sorted((ROOT / "report" / folder).glob("*.typ"))
-    ]
-    + [
-        project(path)
-        for path in (
-            "report/style.css",
-            "report/references.yaml",
-            "CITATION.cff",
-            "requirements.lock",
-        )
-    ]
-    + [
-        # What the last chapter shows.
-        project(path.relative_to(ROOT))
-        for path in sorted((ROOT / "data/accepted/pipeline").glob("*.csv"))
-    ]
-)
 TEMPLATES = [
     project(path)
     for path in (
