@@ -3,6 +3,8 @@
 Each function returns the figure and the table of exactly what it draws.
 """
 
+from typing import Any
+
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
@@ -50,7 +52,7 @@ def communication(link: pd.DataFrame) -> Drawing:
     """Figure 6.1: what goes over the socket. ``link`` is ``flight/link.csv``."""
     row = link.iloc[0]
     figure, axes = _canvas(1.7, (10.0, 3.0))
-    words = {"ha": "center", "fontsize": 8}
+    words: dict[str, Any] = {"ha": "center", "fontsize": 8}
     simulation = "simulation, the server:\nmoves both bodies in the\nEarth's field and air"
     program = (
         f"flight program, the client:\nguidance law and solver on\nan emulated {row['processor']}"
