@@ -150,6 +150,22 @@ def test_dynamic_programming_without_a_path_is_a_row(parameters, section, short)
     assert "3 speeds" in missing[0].tried
 
 
+def test_a_thrust_is_solved_alike_among_any_others(parameters, section, short):
+    """A hard one after a weaker and before a far stronger one: equal to the last digit."""
+    weaker, hard, strong = 5e-4, 5.1e-4, 1.0
+    changed = replace(parameters, races=parameters.races | {"scenario-1": Race(short, ())})
+    small = section.with_(optimum=section.optimum.with_(intervals=4))
+    rows, tried = [], []
+    for thrusts in ((weaker, hard), (hard, strong)):
+        own = small.with_(thrust_sweep_m_s2=thrusts)
+        table, missing = checks.thrust_sweep(changed, own, "scenario-1")
+        rows.append(table[table["thrust_m_s2"] == hard].reset_index(drop=True))
+        tried.append([case for case in missing if f"{hard:g}" in case.case])
+    # All ways were gone: a plan of another thrust would have been one of them.
+    assert tried[0] == tried[1] and "continuation" in tried[0][0].tried
+    pd.testing.assert_frame_equal(*rows, check_exact=True)
+
+
 def test_a_race_without_a_solution_is_a_row(weak):
     """No numbers, where it is missing, what was tried; the other CubeSat races all the same."""
     races = weak.files("weak")["weak-races.csv"].set_index(["cubesat", "solution"])

@@ -280,25 +280,18 @@ def _segment_time(
 
 
 def thrust_sweep(parameters: Parameters, section: Configuration, scenario: str) -> Checked:
-    """The optimum over thrust, from the middle of the start: what it does to time and accuracy.
-
-    From the largest thrust down: where the tide makes a race hard, the plan with the next larger
-    thrust is the guess.
-    """
+    """The optimum over thrust, from the middle of the start: what it does to time and accuracy."""
     course = parameters.races[scenario].course
     rows, missing = [], []
-    stronger: dict[str, Plan] = {}
-    for thrust in sorted(section.thrust_sweep_m_s2, reverse=True):
+    for thrust in sorted(section.thrust_sweep_m_s2):
         cubesat = CubeSat("any", thrust, (), course.start)
         row: dict[str, Any] = {"scenario": scenario, "thrust_m_s2": thrust}
         multiplier = delta_v = np.nan
         for name, finish in ((WHOLE, "state"), (ANYWHERE, "rest anywhere")):
             solver = program(course.rings, finish, section.optimum.intervals)
             leg = whole_leg(course, cubesat)
-            plan = attempts.solve(solver, leg, cubesat, parameters.mean_motion, stronger.get(name))
-            if plan.converged:
-                stronger[name] = plan
-            else:
+            plan = attempts.solve(solver, leg, cubesat, parameters.mean_motion)
+            if not plan.converged:
                 case = f"{scenario}, thrust of {thrust:g} m/s^2, {name}"
                 missing.append(attempts.not_converged(case, plan, cubesat, parameters.mean_motion))
             flown = propagate_plan(plan, parameters.mean_motion)
@@ -317,7 +310,7 @@ def thrust_sweep(parameters: Parameters, section: Configuration, scenario: str) 
         rows.append(
             row | {"largest_ring_multiplier_s_m": multiplier, f"{WHOLE}, delta-v (m/s)": delta_v}
         )
-    return pd.DataFrame(rows[::-1]), missing
+    return pd.DataFrame(rows), missing
 
 
 def start_positions(parameters: Parameters, section: Configuration, scenario: str) -> Checked:
