@@ -134,6 +134,7 @@ lock:
 	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.browser.in -c requirements.lock -o requirements.browser.lock
 	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.lab.in -c requirements.lock -o requirements.lab.lock
 	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.slurm.in -c requirements.lock -o requirements.slurm.lock
+	uv pip compile --generate-hashes --no-header --python-version 3.11 flight/requirements.unicorn.in -o flight/requirements.unicorn.lock
 
 clean:
 	rm -rf report/build runs logs .snakemake .cache

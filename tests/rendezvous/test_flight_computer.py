@@ -4,7 +4,9 @@ What needs a compiler or an emulator is skipped where that is not there; the tra
 was counted are tested everywhere.
 """
 
+import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -101,6 +103,37 @@ def test_counts_are_the_same_every_time(small, recorded, monkeypatch):
     check_memory(first["memory.csv"])
     counted = first["classes.csv"]
     assert (counted["fp_multiply_add"] > 0).all() and (counted["other"] == 0).all()
+
+
+def has_unicorn():
+    """Whether the environment of the folder ``flight`` has it; `flight/install` makes that."""
+    python = [str(emulator.GENERATOR), "-c", "import unicorn"]
+    return (
+        emulator.GENERATOR.exists() and subprocess.run(python, capture_output=True).returncode == 0
+    )
+
+
+@needs(*emulator.MEASURING)
+@pytest.mark.skipif(not has_unicorn(), reason="not there: Unicorn in flight/.venv (flight/install)")
+@pytest.mark.parametrize("name", emulator.PROCESSORS)
+def test_unicorn_counts_the_same(recorded, tmp_path, name):
+    """Two docking programs on another emulator without the plugin: as many instructions each.
+
+    Loader, board, semihosting and the counting are others; Unicorn's translator comes from QEMU.
+    """
+    processor, recording = emulator.PROCESSORS[name], recorded[-1]
+    plugin = emulator.build_plugin(tmp_path)
+    emulator.build(emulator.OWN, processor, recording, tmp_path)
+    answers, counts = emulator.replay(processor, recording, tmp_path, plugin)
+    (tmp_path / "answers.bin").unlink()
+    counter = Path(__file__).with_name("unicorn_count.py")
+    said = emulator.run([emulator.GENERATOR, counter, "replay.elf", processor.cpu], tmp_path)
+    total = counts.drop(columns=cycles.MISSES).sum(axis=1)
+    assert len(total) == len(recording.steps) > 1
+    assert [int(number) for number in said.split()] == total.tolist()
+    again = np.fromfile(tmp_path / "answers.bin").reshape(len(total), -1)
+    assert again[:, 1].tolist() == answers.iterations.tolist()
+    assert again[:, 4:].tolist() == answers.controls.reshape(len(total), -1).tolist()
 
 
 @needs(*link.FLYING)
