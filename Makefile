@@ -9,7 +9,7 @@ export PIP_USER := 0
 PIP := $(VENV)/bin/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := all
-.PHONY: all test test-site explain compare accept what-ifs lint animations flight benchmark benchmark-baseline faults determinism lock clean lab dag scale test-slurm
+.PHONY: all test test-site explain compare accept what-ifs lint animations flight benchmark benchmark-baseline faults determinism lock clean lab dag scale test-slurm test-crate verify audit drift
 
 all: $(VENV)/installed
 	@snakemake all
@@ -56,6 +56,30 @@ test-slurm: $(VENV)/installed
 # All that is known of a printed value, erratum, claim, table or figure; RUN=runs/<name> for a what-if.
 explain: $(VENV)/installed
 	@python -m smallsat explain "$$ID" $(if $(RUN),--run "$$RUN")
+
+# Holds a finished build against the record that it ends with, or against another one: CRATE=...
+verify: $(VENV)/installed
+	@python -m smallsat verify $(if $(CRATE),--crate "$$CRATE")
+
+# The record of a build against the profile that it follows, whose vocabularies are fetched once.
+CRATES := .cache/crate
+test-crate: $(CRATES)/bin/rocrate-validator
+	@$< cache warm --cache-path $(CRATES)/http $(addprefix --url https://w3id.org/ro/,crate/1.1/context terms/workflow-run/context)
+	@$< --no-interactive validate --offline --cache-path $(CRATES)/http --no-paging --profile-identifier provenance-run-crate-0.5 .
+
+$(CRATES)/bin/rocrate-validator: requirements.crate.lock
+	$(PYTHON) -m venv --clear $(CRATES)
+	$(CRATES)/bin/python -m pip install --quiet --require-hashes -r $<
+	@touch $@
+
+# Known vulnerabilities of what requirements.lock names.
+audit: $(VENV)/installed
+	$(PIP) --require-hashes -r requirements.audit.lock
+	@python tests/audit/run.py
+
+# A study, STUDY=mars, with the newest versions of all packages beside the locked ones: which numbers move.
+drift: $(VENV)/installed
+	@python tests/drift/run.py $(or $(STUDY),mars)
 
 # What-if runs side by side, and beside the reproduction, in one page: RUNS="runs/heavier runs/lighter".
 compare: $(VENV)/installed
@@ -135,6 +159,8 @@ lock:
 	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.lab.in -c requirements.lock -o requirements.lab.lock
 	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.slurm.in -c requirements.lock -o requirements.slurm.lock
 	uv pip compile --generate-hashes --no-header --python-version 3.11 flight/requirements.unicorn.in -o flight/requirements.unicorn.lock
+	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.audit.in -c requirements.lock -o requirements.audit.lock
+	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.crate.in -o requirements.crate.lock
 
 clean:
 	rm -rf report/build runs logs .snakemake .cache

@@ -71,14 +71,23 @@ include: "rules/evidence.smk"
 include: "rules/report.smk"
 
 
+# What a build is to make.
+BUILT = [
+    *rules.report.output,
+    *rules.site.output,
+    "data/results/verdicts.accepted",
+    *[path for study in STUDIES for path in report_tables(study) + report_figures(study)],
+]
+
+
+include: "rules/provenance.smk"
+
+
 rule all:
     default_target: True
     input:
-        rules.report.output,
-        rules.site.output,
-        "data/results/verdicts.accepted",
-        [report_tables(study) for study in STUDIES],
-        [report_figures(study) for study in STUDIES],
+        BUILT,
+        ["ro-crate-metadata.json"] * (not WHAT_IF),
     log:
         "logs/all.log",
     message:

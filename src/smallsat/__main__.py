@@ -26,6 +26,8 @@ COMMANDS = {
     "content": "smallsat.report.content",
     "typeset": "smallsat.report.typesetting",
     "site": "smallsat.site.pages",
+    "crate": "smallsat.workflow.crate",
+    "verify": "smallsat.workflow.verify",
 }
 
 
