@@ -19,9 +19,10 @@ with held(pathlib.Path(sys.argv[1])):
     time.sleep(float(sys.argv[2]))
 """
 # A build that starts a job, tells its number, and how it ended.
-BUILD_AND_JOB = f"""
+BUILD_AND_JOB = """
 import os, subprocess, sys, time
-os.environ[{BUILD!r}] = str(os.getpid())
+from smallsat.workflow.one_build import announced
+os.environ.update(announced())
 job = "import time; from smallsat.workflow.one_build import end_with_build; end_with_build();"
 job += "print('watching', flush=True); time.sleep(60)"
 process = subprocess.Popen([sys.executable, "-c", job], stdout=subprocess.PIPE, text=True)
@@ -31,9 +32,11 @@ print(process.wait(), flush=True)
 """
 
 
-def python(code, *words):
+def python(code, *words, environment=None):
+    outside = {name: value for name, value in os.environ.items() if name != BUILD}
     return subprocess.Popen(
         [sys.executable, "-c", code, *map(str, words)],
+        env=outside | (environment or {}),
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
@@ -87,6 +90,13 @@ def test_an_interrupted_job_is_killed_by_the_kernel():
     build = python(BUILD_AND_JOB)
     os.kill(int(build.stdout.readline()), signal.SIGINT)
     assert build.communicate()[0] == f"{-signal.SIGINT}\n"
+
+
+def test_a_job_on_another_machine_watches_nothing():
+    """The number of a process says nothing there."""
+    code = "from smallsat.workflow.one_build import end_with_build as e; e(); print('on')"
+    process = python(code, environment={BUILD: "999999999@elsewhere"})
+    assert process.communicate()[0] == "on\n"
 
 
 def test_a_command_by_hand_belongs_to_no_build():

@@ -23,7 +23,7 @@ from smallsat.workflow.changed_results import (
     told,
 )
 from smallsat.workflow.isolation import isolated
-from smallsat.workflow.one_build import BUILD, held
+from smallsat.workflow.one_build import announced, held
 
 PROJECT = Path(__file__).parents[3]
 
@@ -175,7 +175,7 @@ def main() -> None:
     cli.get_argument_parser = unlimited(cli.get_argument_parser)
     Workflow.execute = careful(Workflow.execute)
     FilePersistence.finished = noting(FilePersistence.finished)
-    os.environ[BUILD] = str(os.getpid())
+    os.environ.update(announced())
     cli.main()
 
 

@@ -16,8 +16,13 @@ from pathlib import Path
 
 from smallsat.errors import InputError
 
-# Names the process of the build to its jobs.
+# Names the process of the build, and the machine that it runs on, to its jobs.
 BUILD = "SMALLSAT_BUILD"
+
+
+def announced() -> dict[str, str]:
+    """The variable that tells jobs that this process is their build."""
+    return {BUILD: f"{os.getpid()}@{os.uname().nodename}"}
 
 
 @contextmanager
@@ -69,11 +74,12 @@ def end_with_build() -> None:
     A job would otherwise go on after its build was killed, and write while the next one does. An
     interrupt is left to the kernel: a solver that catches it would call its case not converged.
     """
-    build = os.environ.get(BUILD)
-    if build is None:
+    build, _, machine = os.environ.get(BUILD, "").partition("@")
+    if not build:
         return
     signal.signal(signal.SIGINT, signal.SIG_DFL)
-    if not hasattr(os, "pidfd_open"):
+    # Not seen from another machine of a cluster, whose batch system ends jobs.
+    if machine != os.uname().nodename or not hasattr(os, "pidfd_open"):
         return
     try:
         watched = os.pidfd_open(int(build))
