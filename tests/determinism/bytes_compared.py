@@ -75,6 +75,9 @@ class Moved:
 
 def moved_digits(one: Path, other: Path, name: str) -> Iterator[Moved]:
     """Columns of a table in which builds differ; a text that differs counts as a whole."""
+    if not ((one / name).exists() and (other / name).exists()):
+        yield Moved(name, "(the table is missing)", 1, 1, float("inf"))
+        return
     first, second = read_table(one / name), read_table(other / name)
     if list(first) != list(second) or len(first) != len(second):
         yield Moved(name, "(rows or columns)", 1, 1, float("inf"))
@@ -97,11 +100,16 @@ def moved_digits(one: Path, other: Path, name: str) -> Iterator[Moved]:
 def outcomes(build: Path, study: str) -> dict[str, str]:
     """Verdict of every printed value, outcome of every proof and claim."""
     found = {}
-    for table, column in (("verdicts", "verdict"), ("errata", "holds"), ("claims", "outcome")):
-        rows = read_table(build / f"data/results/{study}/{table}.csv", ("id",))
-        if column not in rows:
-            raise KeyError(f"{table}.csv has no column {column}: {list(rows)}")
-        found |= {f"{table}/{row['id']}": str(row[column]) for _, row in rows.iterrows()}
+    for table, key, column in (
+        ("verdicts", "id", "verdict"),
+        ("errata", "key", "holds"),
+        ("claims", "id", "outcome"),
+    ):
+        rows = read_table(build / f"data/results/{study}/{table}.csv", (key,))
+        found |= {
+            f"{table}/{name}": str(outcome)
+            for name, outcome in zip(rows[key], rows[column], strict=True)
+        }
     return found
 
 
