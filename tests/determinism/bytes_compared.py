@@ -22,7 +22,7 @@ FOLDERS = ("data/results", "figures", "report/build")
 CLOCK = "holds measured seconds"
 STAMPS = "time stamps of papermill apart"
 # Keys of an executed notebook that tell the time.
-TIMES = ("start_time", "end_time", "duration", "iopub.execute_input", "iopub.status.busy")
+TIMES = ("start_time", "end_time", "duration", "execution")
 
 
 @dataclass(frozen=True)

@@ -10,9 +10,10 @@ import os
 import sys
 import tempfile
 from collections import Counter
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
-from dataclasses import asdict, replace
+from dataclasses import asdict, fields, replace
 from fnmatch import fnmatch
 from pathlib import Path
 
@@ -27,6 +28,7 @@ from tests.provenance import provenance
 
 ROOT = Path(__file__).parents[2]
 TABLES = ROOT / "data/accepted/pipeline"
+COLUMNS = ("kind", "files", "identical", "excepted", "reason")
 # What may differ, and why.
 SECONDS = "measured seconds"
 EXCEPTIONS = {
@@ -62,7 +64,7 @@ def reason(file: Compared, timed: set[str]) -> str:
     return next((why for pattern, why in listed.items() if fnmatch(file.name, pattern)), "")
 
 
-def summary(found: list[Compared], timed: set[str], studies: str) -> list[dict[str, object]]:
+def summary(found: list[Compared], timed: set[str]) -> list[dict[str, object]]:
     """A row for each kind of file: how many, how many the same, which exceptions and why."""
     rows = []
     for kind in sorted({file.kind for file in found}):
@@ -70,7 +72,6 @@ def summary(found: list[Compared], timed: set[str], studies: str) -> list[dict[s
         excused = Counter(why for file in ofs if not file.same and (why := reason(file, timed)))
         rows.append(
             {
-                "studies": studies,
                 "kind": kind,
                 "files": len(ofs),
                 "identical": sum(file.same for file in ofs),
@@ -81,11 +82,12 @@ def summary(found: list[Compared], timed: set[str], studies: str) -> list[dict[s
     return rows
 
 
-def kept(path: Path, studies: str, rows: list[dict[str, object]]) -> None:
+def kept(path: Path, columns: Sequence[str], studies: str, rows: list[dict[str, object]]) -> None:
     """Exchange the rows of these studies in a tracked table."""
-    old = pd.read_csv(path, dtype=str, keep_default_na=False) if path.exists() else pd.DataFrame()
-    others = old[old["studies"] != studies] if len(old) else old
-    new = pd.DataFrame(rows).astype(str) if rows else pd.DataFrame(columns=old.columns)
+    columns = ["studies", *columns]
+    old = pd.read_csv(path, dtype=str, keep_default_na=False) if path.exists() else None
+    others = pd.DataFrame(columns=columns) if old is None else old[old["studies"] != studies]
+    new = pd.DataFrame([{"studies": studies} | row for row in rows], columns=columns)
     pd.concat([others, new]).to_csv(path, index=False, lineterminator="\n")
 
 
@@ -118,7 +120,7 @@ def main() -> None:
         timed = {study for study in studies if (one / f"data/results/{study}/timings.csv").exists()}
         found = list(compared(one, other))
         names = " ".join(studies)
-        rows = summary(found, timed, names)
+        rows = summary(found, timed)
         unexcused = [file.name for file in found if not file.same and not reason(file, timed)]
         moved: list[Moved] = [
             move
@@ -130,11 +132,12 @@ def main() -> None:
         before = {key: value for study in studies for key, value in outcomes(one, study).items()}
         after = {key: value for study in studies for key, value in outcomes(third, study).items()}
         flipped = sorted(key for key in before | after if before.get(key) != after.get(key))
-    kept(TABLES / "determinism.csv", names, rows)
+    kept(TABLES / "determinism.csv", COLUMNS, names, rows)
     kept(
         TABLES / "determinism-kernel.csv",
+        ["kernel", *(field.name for field in fields(Moved))],
         names,
-        [{"studies": names, "kernel": arguments.kernel} | asdict(move) for move in moved],
+        [{"kernel": arguments.kernel} | asdict(move) for move in moved],
     )
     facts = (
         provenance("make determinism", "snakemake", "numpy", "typst")
@@ -152,8 +155,9 @@ def main() -> None:
     )
     kept(
         TABLES / "determinism-provenance.csv",
+        ["item", "value"],
         names,
-        [{"studies": names, "item": item, "value": value} for item, value in facts.items()],
+        [{"item": item, "value": value} for item, value in facts.items()],
     )
     print(pd.DataFrame(rows).to_string(index=False))
     print(*(f"differs: {name}" for name in unexcused), sep="\n")
