@@ -19,6 +19,7 @@ from smallsat.shard import Shard
 from smallsat.strict_yaml import read_yaml
 from smallsat.workflow.figures import drawn, read_runs
 from smallsat.workflow.isolation import isolate
+from smallsat.workflow.names import check_names
 from smallsat.workflow.run import read_run
 from smallsat.workflow.seconds import accepted
 from smallsat.workflow.sources import named_modules, notebook_modules, source_files
@@ -43,6 +44,14 @@ try:
     STUDIES = [study.name for study in catalogue]
     ARTEFACTS = {study.name: read_published(PUBLISHED, study)[1] for study in catalogue}
     FIGURES = {study: read_runs(ROOT / "notebooks" / study) for study in STUDIES}
+    # What a study shows beyond its document.
+    BEYOND = {
+        study: (read_yaml(path) or []) if path.exists() else []
+        for study in STUDIES
+        for path in [PUBLISHED / study / "extras.yaml"]
+    }
+    for study in STUDIES:
+        check_names(study, ARTEFACTS[study], BEYOND[study], FIGURES[study])
     # Without the figures of cases that a what-if run leaves out.
     RUNS = {
         study: [

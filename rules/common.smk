@@ -36,21 +36,15 @@ def targets(study, *kinds):
     ]
 
 
-def extras(study):
-    """Entries of what a study shows beyond its document."""
-    path = ROOT / f"data/published/{study}/extras.yaml"
-    return read_yaml(path) or [] if path.exists() else []
-
-
 def report_tables(study):
     """Tables that the report of a study shows, the document's own first."""
-    beyond = [entry["table"] for entry in extras(study) if entry.get("table")]
+    beyond = [entry["table"] for entry in BEYOND[study] if entry.get("table")]
     return targets(study, "table") + beyond
 
 
 def report_figures(study):
     """Figures that the report of a study shows, the document's own first."""
-    beyond = [stem for entry in extras(study) for stem in entry.get("figures") or []]
+    beyond = [stem for entry in BEYOND[study] for stem in entry.get("figures") or []]
     return targets(study, "figure") + [f"{stem}.svg" for stem in beyond]
 
 

@@ -34,5 +34,5 @@ if not WHAT_IF:
         message:
             "Record what was built, from what and how, with hashes"
         shell:
-            "python -m smallsat crate {input.built} --besides {input.besides} --output {output}"
+            "python -m smallsat crate {input.built} --besides {input.besides:q} --output {output}"
             " > {log} 2>&1"

@@ -305,3 +305,50 @@ def test_the_report_of_one_study_is_about_that_study_alone(project, reproduction
     shutil.copy(results / "verdicts.csv", results / "transfer/verdicts.csv")
     content = collect(project, project, CONFIG, CONFIG, studies=["transfer"])
     assert [document["key"] for document in content["documents"]] == ["transfer"]
+
+
+# Each means something to Typst, to a browser or to a shell.
+HOSTILE = (
+    '<script>alert(1)</script> #panic("run") #read("/CITATION.cff") $x^2$ *bold* _it_ `raw` '
+    "@cited <label> = no heading // no remark \\ $(touch pwned) '\" & </main>"
+)
+
+
+def hostile(data, keys):
+    """Content with the hostile text at the end of every text under one of the keys."""
+    if isinstance(data, list):
+        return [hostile(one, keys) for one in data]
+    if isinstance(data, dict):
+        return {
+            key: f"{value} {HOSTILE}"
+            if key in keys and isinstance(value, str)
+            else hostile(value, keys)
+            for key, value in data.items()
+        }
+    return data
+
+
+def test_texts_of_the_results_are_no_code_and_no_markup(project, reproduction):
+    """Captions, reasons, cases, settings: page and PDF show them to the letter and run nothing."""
+    content = json.loads((reproduction / "content.json").read_text())
+    keys = ("caption", "reason", "case", "status", "tried", "locator", "explanation", "evidence")
+    keys += ("claim", "subject", "title", "text", "printed", "unit")
+    documents = hostile(content["documents"], keys)
+    run = content["run"] | {
+        "what_if": True,
+        "folder": HOSTILE,
+        "changes": [{"key": HOSTILE, "value": HOSTILE, "default": HOSTILE}],
+    }
+    path = reproduction / "hostile.json"
+    write_json(content | {"documents": documents, "run": run}, path)
+    for suffix in ("pdf", "html"):
+        compile_report(path, project, reproduction / f"hostile.{suffix}")
+    page = (reproduction / "hostile.html").read_text()
+    tags = []
+    parser = HTMLParser()
+    parser.handle_starttag = lambda tag, attributes: tags.append(tag)
+    parser.feed(page)
+    assert "main" in tags and "script" not in tags
+    assert page.count("&lt;script>alert(1)&lt;/script> #panic(") > 10
+    assert "cff-version" not in page
+    assert not list(project.rglob("pwned"))
