@@ -64,7 +64,7 @@ verify: $(VENV)/installed
 # The record of a build against the profile that it follows, whose vocabularies are fetched once.
 CRATES := .cache/crate
 test-crate: $(CRATES)/bin/rocrate-validator
-	@$< cache warm --cache-path $(CRATES)/http $(addprefix --url https://w3id.org/ro/,crate/1.1/context terms/workflow-run/context)
+	@$< cache warm --cache-path $(CRATES)/http $(addprefix --url https://w3id.org/ro/,crate/1.1/context terms/workflow-run/context) > $(CRATES)/warm.log || { echo "make: w3id.org does not answer, and the vocabularies of the profile are not in $(CRATES)/http yet; try again with a network" >&2; exit 2; }
 	@$< --no-interactive validate --offline --cache-path $(CRATES)/http --no-paging --profile-identifier provenance-run-crate-0.5 .
 
 $(CRATES)/bin/rocrate-validator: requirements.crate.lock
