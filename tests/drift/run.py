@@ -10,6 +10,7 @@ import csv
 import datetime
 import json
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -50,7 +51,9 @@ def packages(python: Path) -> dict[str, str]:
 
 
 def build(python: Path, study: str, run: str) -> Path:
-    """Folder of a run of the study in small sizes; fails where the build does."""
+    """Folder of a run of the study in small sizes, made anew; fails where the build does."""
+    # Snakemake does not see that packages have changed.
+    shutil.rmtree(PROJECT / "runs" / run, ignore_errors=True)
     call = [python.parent / "snakemake", study, "--configfile", CONFIGURATION]
     subprocess.run([*call, "--config", f"run={run}"], cwd=PROJECT, check=True)
     return PROJECT / "runs" / run
