@@ -145,6 +145,7 @@ determinism: $(VENV)/installed
 # How far a sweep of rendezvous goes: half an hour of one core; then projected, from tracked tables.
 scale: $(VENV)/installed
 	python benchmarks/scale.py
+	python benchmarks/scale_join.py
 	python benchmarks/scale_projection.py
 
 # The side-by-side baseline of benchmarks/slew_speed.py; nothing else uses it.

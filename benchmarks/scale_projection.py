@@ -1,6 +1,6 @@
 """Time and price of the measured sweep on more nodes and from up to a million initial states.
 
-``make scale`` runs it on ``scale.csv``, which ``scale.py`` has measured on one node, and on
+``make scale`` runs it on what ``scale.py`` and ``scale_join.py`` have measured on one node, and on
 ``slurm.csv``, in which ``make test-slurm`` keeps what a cluster adds to a job. The model stands in
 ``docs/scale.md``.
 """
@@ -51,12 +51,12 @@ def line(sizes: pd.DataFrame, what: str, of: str, starts: str = "") -> Line:
     return Line(*map(float, found), float(np.max(np.abs(features @ found / seconds - 1.0))))
 
 
-def lines(sizes: pd.DataFrame) -> dict[str, Line]:
+def lines(sizes: pd.DataFrame, joins: pd.DataFrame) -> dict[str, Line]:
     """What drawing takes a state, flying a manoeuvre and a shard, and joining a manoeuvre."""
     return {
         "states": line(sizes, "states_s", "states"),
         "shards": line(sizes, "shards_s", "manoeuvres", "shards_run"),
-        "join": line(sizes, "join_s", "manoeuvres"),
+        "join": line(joins, "join_s", "manoeuvres"),
     }
 
 
@@ -66,7 +66,7 @@ def flying_s(shard: Line, manoeuvres: float, shards: int, slots: int, job_s: flo
 
 
 def projected(
-    sizes: pd.DataFrame, cores: int, job_s: float, price: float
+    sizes: pd.DataFrame, found: dict[str, Line], cores: int, job_s: float, price: float
 ) -> Iterator[dict[str, float]]:
     """Time and price of sizes on so many nodes.
 
@@ -74,6 +74,8 @@ def projected(
     ----------
     sizes
         What was measured on one core.
+    found
+        The `lines` through it.
     cores
         Of a node.
     job_s
@@ -81,7 +83,6 @@ def projected(
     price
         Of a node for an hour.
     """
-    found = lines(sizes)
     cases = sizes["manoeuvres"].iloc[0] / sizes["states"].iloc[0]
     for states in STATES:
         manoeuvres = cases * states
@@ -116,9 +117,10 @@ def main() -> None:
     sizes = read_table(TABLES / "scale.csv")
     measured = read_table(TABLES / "scale-provenance.csv", ["value"]).set_index("item")["value"]
     job_s = float(read_table(TABLES / "slurm.csv")["overhead_s"].iloc[0])
-    rows = projected(sizes, int(measured["cores"]), job_s, price)
+    found = lines(sizes, read_table(TABLES / "scale-join.csv"))
+    rows = projected(sizes, found, int(measured["cores"]), job_s, price)
     write_table(pd.DataFrame(rows), TABLES / "scale-projected.csv")
-    fitted = [{"of": name, **asdict(one)} for name, one in lines(sizes).items()]
+    fitted = [{"of": name, **asdict(one)} for name, one in found.items()]
     model = pd.DataFrame(fitted).assign(job_s=job_s, price_per_node_hour=price)
     write_table(model, TABLES / "scale-model.csv")
 
