@@ -116,6 +116,17 @@ for number in ENSEMBLE:
         makes=[f"ensemble/{number}/{table}" for table in MEMBER_TABLES],
         accepted=["sets.csv"],
     )
+step(
+    "rendezvous",
+    "not_fitted",
+    reads=[
+        f"ensemble/{number}/{table}"
+        for number in ENSEMBLE
+        for table in ("set.csv", "truth.csv", "studies/rendezvous-sweep.parquet")
+    ],
+    published=["values.csv"],
+    makes=["not-fitted.csv", "failures.csv"],
+)
 
 step("rendezvous", "solvers", makes=["solvers.csv"], clock=["solver-seconds.csv"])
 step("rendezvous", "constraints", makes=["constraints.csv"])
