@@ -9,7 +9,7 @@ import pytest
 from smallsat.errors import InputError
 from smallsat.evidence.reference import resolve
 from smallsat.report.values import read_findings
-from smallsat.workflow.explain import explained, named, subjects
+from smallsat.workflow.explain import explained, known_of, named, subjects
 
 
 @pytest.fixture(scope="module")
@@ -73,6 +73,12 @@ def test_without_a_build(known, root, tmp_path):
         text = explained(subject, root, tmp_path)
         assert "not built yet" in text
         assert "snakemake --force" in text
+
+
+def test_again_in_a_run_of_its_own(known, root, tested_run):
+    """The command makes the reproduction anew; a what-if needs its configuration too."""
+    again = {run: [*dict(known_of(known[0], root, run))][-1] for run in (root, tested_run)}
+    assert again == {root: "again", tested_run: "with"}
 
 
 def test_a_part_of_a_name(known):
