@@ -9,7 +9,7 @@ export PIP_USER := 0
 PIP := $(VENV)/bin/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := all
-.PHONY: all test test-site explain compare accept what-ifs lint animations flight benchmark benchmark-baseline faults determinism lock clean lab dag scale test-slurm test-crate verify audit drift
+.PHONY: all test test-site explain compare accept what-ifs lint animations flight benchmark benchmark-baseline faults determinism lock clean lab dag scale test-slurm test-crate verify audit drift bench
 
 all: $(VENV)/installed
 	@snakemake all
@@ -147,6 +147,18 @@ scale: $(VENV)/installed
 	python benchmarks/scale.py
 	python benchmarks/scale_join.py
 	python benchmarks/scale_projection.py
+# Speed beside peers, which live in an environment of their own: what they ask for differs from the lock.
+# One core each, so that processor seconds compare.
+BENCH := .cache/bench
+bench: $(BENCH)/installed
+	@OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BENCH)/bin/python benchmarks/peers/bench.py
+
+$(BENCH)/installed: requirements.lock requirements.bench.lock
+	$(PYTHON) -m venv --clear $(BENCH)
+	$(BENCH)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --require-hashes -r requirements.lock
+	$(BENCH)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --require-hashes -r requirements.bench.lock
+	$(BENCH)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
+	@touch $@
 
 # The side-by-side baseline of benchmarks/slew_speed.py; nothing else uses it.
 # Without its dependencies, which would exchange the project's own CasADi.
@@ -162,6 +174,7 @@ lock:
 	uv pip compile --generate-hashes --no-header --python-version 3.11 flight/requirements.unicorn.in -o flight/requirements.unicorn.lock
 	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.audit.in -c requirements.lock -o requirements.audit.lock
 	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.crate.in -o requirements.crate.lock
+	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.bench.in -c requirements.lock --override requirements.bench.overrides -o requirements.bench.lock
 
 clean:
 	rm -rf report/build runs logs .snakemake .cache

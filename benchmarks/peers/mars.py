@@ -1,36 +1,94 @@
-"""The Mars mission: compiled loop against the same steps in plain NumPy, as a ratio in one run."""
+"""The Mars mission: the compiled loop, the same steps in plain NumPy, and Basilisk."""
 
-import time
+import sys
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
+from contender import Contender, Problem
 
 from smallsat.config import default_config
 from smallsat.studies.mars.methods.simulation import AUTOMATIC, run
 from smallsat.studies.mars.parameters import Parameters
 
-ROOT = Path(__file__).parents[1]
-REPETITIONS = 5
+ROOT = Path(__file__).parents[2]
+REFERENCES = ROOT / "tests/references"
+# Both Basilisk's and the document's steps of 1 s are that far from the reference (its README).
+REQUIRED = 1e-7
+SECTION = default_config(ROOT).mars
+PARAMETERS = Parameters.from_section(SECTION)
+DURATION, STEP = SECTION.durations_s.mission, SECTION.step_s
+SWITCH = SECTION.mrp_switch.mission
 
 
-def measure() -> dict[str, float]:
-    """Seconds of the mission both ways, the ratio, and the largest difference of the attitudes."""
-    section = default_config(ROOT).mars
-    parameters = Parameters.from_section(section)
-    duration, step = section.durations_s.mission, section.step_s
-    switch = section.mrp_switch.mission
-    arguments = (parameters, AUTOMATIC, duration, step, step, switch)
-    compiled = run(*arguments)  # compiles
-    compiled_s = min(_seconds(lambda: run(*arguments)) for _ in range(REPETITIONS))
-    began = time.perf_counter()
-    plain = plain_mission(parameters, duration, step, switch)
-    plain_s = time.perf_counter() - began
-    return {
-        "compiled_s": compiled_s,
-        "plain_numpy_s": plain_s,
-        "ratio": plain_s / compiled_s,
-        "largest_difference": float(np.max(np.abs(compiled[:, 1:7] - plain))),
-    }
+def problem() -> Problem:
+    """The mission of the document, with its steps."""
+    reference = pd.read_csv(REFERENCES / "basilisk-attitude.csv").query("run == 'mission'")
+
+    def error(states: pd.DataFrame) -> float:
+        """Largest difference of the MRPs, whatever set they are of, at the reference's times."""
+        ours = states.set_index("time_s").loc[reference["time_s"]].to_numpy()[:, :3]
+        other = reference[["sigma_1", "sigma_2", "sigma_3"]].to_numpy()
+        return float(np.max(np.abs(_short(ours) - _short(other))))
+
+    return Problem(
+        "mars: the mission, 1 s steps",
+        "largest MRP error against a run of steps 200 times as fine",
+        REQUIRED,
+        error,
+        (
+            Contender("compiled loop", "smallsat", _ours),
+            Contender("NumPy loop", "numpy", _numpy),
+            Contender("Basilisk", "bsk", _basilisk),
+        ),
+        3,
+    )
+
+
+def _short(sigma: np.ndarray) -> np.ndarray:
+    squared = np.sum(sigma**2, axis=1, keepdims=True)
+    return np.where(squared > 1.0, -sigma / squared, sigma)
+
+
+def _table(times: np.ndarray, sigma: np.ndarray) -> pd.DataFrame:
+    return pd.DataFrame({"time_s": times.round(6), **{f"s{i}": sigma[:, i] for i in range(3)}})
+
+
+def _ours():
+    arguments = (PARAMETERS, AUTOMATIC, DURATION, STEP, STEP, SWITCH)
+    run(*arguments)
+
+    def solve() -> pd.DataFrame:
+        rows = run(*arguments)
+        return _table(rows[:, 0], rows[:, 1:4])
+
+    return solve
+
+
+def _numpy():
+    def solve() -> pd.DataFrame:
+        states = plain_mission(PARAMETERS, DURATION, STEP, SWITCH)
+        return _table(STEP * np.arange(len(states)), states[:, :3])
+
+    return solve
+
+
+def _basilisk():
+    sys.path.insert(0, str(REFERENCES))
+    import basilisk_attitude
+
+    # The reference takes finer steps of the dynamics; a peer takes those of the document.
+    basilisk_attitude.DYNAMICS_STEP_S = STEP
+
+    def solve() -> pd.DataFrame:
+        rows = np.asarray(
+            basilisk_attitude.simulate(
+                DURATION, control=("mission", basilisk_attitude.document_law)
+            )
+        )
+        return _table(rows[:, 0], rows[:, 1:4])
+
+    return solve
 
 
 def plain_mission(
@@ -109,14 +167,3 @@ def _mrp(dcm: np.ndarray) -> np.ndarray:
     sigma = skew / (root * (root + 2))
     squared = sigma @ sigma
     return sigma if squared <= 1 else -sigma / squared
-
-
-def _seconds(function) -> float:
-    began = time.perf_counter()
-    function()
-    return time.perf_counter() - began
-
-
-if __name__ == "__main__":
-    for name, value in measure().items():
-        print(f"{name:20} {value:.4g}")
