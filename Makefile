@@ -147,6 +147,7 @@ scale: $(VENV)/installed
 	python benchmarks/scale.py
 	python benchmarks/scale_join.py
 	python benchmarks/scale_projection.py
+
 # Speed beside peers, which live in an environment of their own: what they ask for differs from the lock.
 # One core each, so that processor seconds compare.
 BENCH := .cache/bench

@@ -41,7 +41,7 @@ class Problem:
     required
         Largest error of what counts as solved to the same accuracy.
     error
-        The error of what a contender returned, by a method that is none of theirs.
+        The error of what a contender returned, as ``measure`` says.
     contenders
         Ours, then the peers.
     repetitions
