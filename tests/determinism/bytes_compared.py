@@ -19,9 +19,8 @@ KINDS: Mapping[str, tuple[str, ...]] = {
     "PDF": (".pdf",),
 }
 FOLDERS = ("data/results", "figures", "report/build")
-CLOCK = "holds measured seconds"
-STAMPS = "time stamps of papermill apart"
-# Keys of an executed notebook that tell the time.
+# Keys of an executed notebook that tell the time; the cell of parameters that papermill adds has an
+# invented name beside.
 TIMES = ("start_time", "end_time", "duration", "execution")
 
 
@@ -121,5 +120,7 @@ def _content(path: Path) -> Any:
 
 def _timeless(node: Any) -> Any:
     if isinstance(node, dict):
-        return {key: _timeless(value) for key, value in node.items() if key not in TIMES}
+        added = "injected-parameters" in node.get("metadata", {}).get("tags", [])
+        passed_over = (*TIMES, "id") if added else TIMES
+        return {key: _timeless(value) for key, value in node.items() if key not in passed_over}
     return [_timeless(value) for value in node] if isinstance(node, list) else node

@@ -91,8 +91,56 @@ def kept(path: Path, columns: Sequence[str], studies: str, rows: list[dict[str, 
     pd.concat([others, new]).to_csv(path, index=False, lineterminator="\n")
 
 
+def judge(
+    one: Path, other: Path, third: Path, studies: list[str], facts: dict[str, str], kernel: str
+) -> bool:
+    """Compare two varied builds, and one on another kernel; keep the tables, print what was found.
+
+    Returns whether nothing differs but what is excepted, and every verdict is the same.
+    """
+    timed = {study for study in studies if (one / f"data/results/{study}/timings.csv").exists()}
+    found = list(compared(one, other))
+    names = " ".join(studies)
+    rows = summary(found, timed)
+    unexcused = [file.name for file in found if not file.same and not reason(file, timed)]
+    moved: list[Moved] = [
+        move
+        for file in compared(one, third)
+        if not file.same and file.name.endswith((".csv", ".parquet"))
+        if not reason(file, timed)
+        for move in moved_digits(one, third, file.name)
+    ]
+    before = {key: value for study in studies for key, value in outcomes(one, study).items()}
+    after = {key: value for study in studies for key, value in outcomes(third, study).items()}
+    flipped = sorted(key for key in before | after if before.get(key) != after.get(key))
+    kept(TABLES / "determinism.csv", COLUMNS, names, rows)
+    kept(
+        TABLES / "determinism-kernel.csv",
+        ["kernel", *(field.name for field in fields(Moved))],
+        names,
+        [{"kernel": kernel} | asdict(move) for move in moved],
+    )
+    varied = {
+        f"varied: {word}": f"{value} / {OTHER.words()[word]}"
+        for word, value in ONE.words().items()
+        if value != OTHER.words()[word] or word == "hash seed"
+    }
+    facts = facts | {"judged": str(len(before)), "flipped": str(len(flipped))} | varied
+    kept(
+        TABLES / "determinism-provenance.csv",
+        ["item", "value"],
+        names,
+        [{"item": item, "value": value} for item, value in facts.items()],
+    )
+    print(pd.DataFrame(rows).to_string(index=False))
+    print(*(f"differs: {name}" for name in unexcused), sep="\n")
+    print(f"on {kernel}: {len(flipped)} of {len(before)} outcomes other, {flipped}")
+    print(pd.DataFrame([asdict(move) for move in moved]).to_string(index=False))
+    return not unexcused and not flipped
+
+
 def main() -> None:
-    """Build, compare, keep the tables; exit with 1 where bytes or verdicts differ unexcused."""
+    """Build and judge; exit with 1 where bytes or verdicts differ unexcused."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("studies", nargs="*", help="studies to build; all if none is given")
     parser.add_argument("--configfile", default="", help="else the documents' own values")
@@ -105,6 +153,10 @@ def main() -> None:
     given = ["--configfile", arguments.configfile] * bool(arguments.configfile)
     words = [*targets(arguments.studies), *given]
     kernel = replace(ONE, path="kernel", cores=2, kernel=arguments.kernel)
+    facts = provenance("make determinism", "snakemake", "numpy", "typst") | {
+        "configuration": arguments.configfile or "the documents' own",
+        "targets": " ".join(targets(arguments.studies)),
+    }
     with ExitStack() as stack:
         place = stack.enter_context(
             tempfile.TemporaryDirectory(dir=arguments.folder, prefix="determinism-")
@@ -116,54 +168,9 @@ def main() -> None:
         projects = [stack.enter_context(copied(ROOT, builds, how)) for how in all_three]
         with ThreadPoolExecutor() as pool:
             list(pool.map(build, projects, all_three, [words] * 3))
-        one, other, third = (run_folder(project, arguments.configfile) for project in projects)
-        timed = {study for study in studies if (one / f"data/results/{study}/timings.csv").exists()}
-        found = list(compared(one, other))
-        names = " ".join(studies)
-        rows = summary(found, timed)
-        unexcused = [file.name for file in found if not file.same and not reason(file, timed)]
-        moved: list[Moved] = [
-            move
-            for file in compared(one, third)
-            if not file.same and file.name.endswith((".csv", ".parquet"))
-            if not reason(file, timed)
-            for move in moved_digits(one, third, file.name)
-        ]
-        before = {key: value for study in studies for key, value in outcomes(one, study).items()}
-        after = {key: value for study in studies for key, value in outcomes(third, study).items()}
-        flipped = sorted(key for key in before | after if before.get(key) != after.get(key))
-    kept(TABLES / "determinism.csv", COLUMNS, names, rows)
-    kept(
-        TABLES / "determinism-kernel.csv",
-        ["kernel", *(field.name for field in fields(Moved))],
-        names,
-        [{"kernel": arguments.kernel} | asdict(move) for move in moved],
-    )
-    facts = (
-        provenance("make determinism", "snakemake", "numpy", "typst")
-        | {
-            "configuration": arguments.configfile or "the documents' own",
-            "targets": " ".join(targets(arguments.studies)),
-            "judged": str(len(before)),
-            "flipped": str(len(flipped)),
-        }
-        | {
-            f"varied: {word}": f"{value} / {OTHER.words()[word]}"
-            for word, value in ONE.words().items()
-            if value != OTHER.words()[word] or word == "hash seed"
-        }
-    )
-    kept(
-        TABLES / "determinism-provenance.csv",
-        ["item", "value"],
-        names,
-        [{"item": item, "value": value} for item, value in facts.items()],
-    )
-    print(pd.DataFrame(rows).to_string(index=False))
-    print(*(f"differs: {name}" for name in unexcused), sep="\n")
-    print(f"on {arguments.kernel}: {len(flipped)} of {len(before)} outcomes other, {flipped}")
-    print(pd.DataFrame([asdict(move) for move in moved]).to_string(index=False))
-    raise SystemExit(bool(unexcused or flipped))
+        runs = [run_folder(project, arguments.configfile) for project in projects]
+        good = judge(*runs, studies, facts, arguments.kernel)
+    raise SystemExit(not good)
 
 
 if __name__ == "__main__":
