@@ -118,7 +118,10 @@ def judge(
         TABLES / "determinism-kernel.csv",
         ["kernel", *(field.name for field in fields(Moved))],
         names,
-        [{"kernel": kernel} | asdict(move) for move in moved],
+        [
+            {"kernel": kernel} | asdict(move) | {"relative": f"{move.relative:.1e}"}
+            for move in moved
+        ],
     )
     varied = {
         f"varied: {word}": f"{value} / {OTHER.words()[word]}"
