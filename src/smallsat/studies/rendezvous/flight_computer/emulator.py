@@ -121,7 +121,8 @@ def missing(*commands: str) -> list[str]:
 
 def run(command: Sequence[str | Path], folder: Path) -> str:
     """Run a command in a folder and return what it prints; an InputError where it fails."""
-    environment = os.environ | {"QEMU_AUDIO_DRV": "none"}
+    # The order in which the generator writes its variables, so where they lie, follows the seed.
+    environment = os.environ | {"QEMU_AUDIO_DRV": "none", "PYTHONHASHSEED": "0"}
     done = subprocess.run(
         [str(word) for word in command],
         cwd=folder, env=environment, capture_output=True, text=True, check=False,
