@@ -153,7 +153,7 @@ def test_pages_show_hostile_texts_to_the_letter(root):
     for text in TEXTS[-3:]:
         row = dict.fromkeys((*COLUMNS, "study", "id", "kind", "verdict"), text)
         shown = pages.get_template("values.html.j2").render(
-            page="values.html", studies=[], up="", rows=[row]
+            page="values.html", studies=[], up="", rows=[row], whole=True, pdf="report.pdf"
         )
         one = {
             "study": text,
