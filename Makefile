@@ -172,6 +172,7 @@ lock:
 	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.browser.in -c requirements.lock -o requirements.browser.lock
 	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.lab.in -c requirements.lock -o requirements.lab.lock
 	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.slurm.in -c requirements.lock -o requirements.slurm.lock
+	uv pip compile --generate-hashes --no-header --python-version 3.11 flight/requirements.in -o flight/requirements.lock
 	uv pip compile --generate-hashes --no-header --python-version 3.11 flight/requirements.unicorn.in -o flight/requirements.unicorn.lock
 	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.audit.in -c requirements.lock -o requirements.audit.lock
 	uv pip compile --generate-hashes --no-header --python-version 3.11 requirements.crate.in -o requirements.crate.lock

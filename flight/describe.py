@@ -2,7 +2,7 @@
 
     python describe.py PROGRAM.json FOLDER
 
-It runs in an environment of its own, see requirements.txt, and knows nothing of the project. The
+It runs in an environment of its own, see requirements.in, and knows nothing of the project. The
 program is the document's: what is a constraint there has no slack here. Symbols are those of
 program.h; what changes from step to step is a parameter, the rest is a constant of the solver.
 """

@@ -43,7 +43,7 @@ def small(section, changed):
     """One run of two steps of one case of each phase."""
     few = section
     for key, value in (
-        ("runs", 1), ("generated_runs", 1), ("steps", 2),
+        ("runs", 1), ("steps", 2),
         ("far.horizons", (15,)), ("mid.horizons", (5,)), ("final.horizons", (5,)),
         ("far.sample_times_s", (30.0,)), ("mid.sample_times_s", (20.0,)),
     ):  # fmt: skip
@@ -230,14 +230,13 @@ def test_tracked_tables_are_of_these_sources(section, tracked):
 def test_tracked_tables_are_whole(section, tracked):
     """Every case with both solvers on both processors, as many runs as configured."""
     size = section.flight_computer
-    runs = {emulator.OWN: size.runs, emulator.GENERATED: size.generated_runs}
     expected = {(PHASES[c.phase], c.horizon, c.sample_time) for c in cases(section)}
     keys = ["phase", "horizon", "sample_time_s"]
     groups = tracked["runs.csv"].groupby(["processor", "solver"])
     assert len(groups) == len(emulator.PROCESSORS) * len(emulator.SOLVERS)
-    for (_, solver), table in groups:
+    for _, table in groups:
         assert set(table[keys].itertuples(index=False, name=None)) == expected
-        assert (table.groupby(keys)["run"].nunique() == runs[solver]).all()
+        assert (table.groupby(keys)["run"].nunique() == size.runs).all()
     assert len(tracked["classes.csv"]) == 2 * len(groups) * len(expected)
     assert (tracked["classes.csv"]["other"] == 0).all()
 

@@ -373,8 +373,6 @@ class Benchmark(Part):
 class FlightComputer(Part):
     """Chapter 6: runs of each case, and how many steps of each are replayed.
 
-    The generated solver takes several times as long to emulate, and may have fewer runs.
-
     ``clock_MHz`` and ``miss_cycles``, of a first-level cache, turn counts into time; ``bin_ms`` is
     the width of Figure 6.3's bins.
     """
@@ -383,7 +381,6 @@ class FlightComputer(Part):
     miss_cycles: Range[Positive]
     bin_ms: Positive
     runs: Annotated[Integer, Interval(ge=1, le=100000)]
-    generated_runs: Annotated[Integer, Interval(ge=1, le=100000)]
     steps: Annotated[Integer, Interval(ge=1, le=10000)]
     far: Benchmark
     mid: Benchmark

@@ -19,12 +19,7 @@ from smallsat.studies.rendezvous.configuration import Configuration
 from smallsat.studies.rendezvous.flight_computer import emulator
 from smallsat.studies.rendezvous.flight_computer.emulator import PROCESSORS, SOLVERS, Answers
 from smallsat.studies.rendezvous.flight_computer.provenance import fingerprint
-from smallsat.studies.rendezvous.flight_computer.recording import (
-    Recording,
-    first_runs,
-    recordings,
-    samples,
-)
+from smallsat.studies.rendezvous.flight_computer.recording import Recording, recordings, samples
 from smallsat.studies.rendezvous.guidance.controller import ITERATION_LIMIT, SOFTENED, TOLERANCE
 from smallsat.studies.rendezvous.guidance.law import PHASES
 from smallsat.studies.rendezvous.methods.qp_solvers import Sample, cost
@@ -48,27 +43,22 @@ def measure(section: Configuration) -> dict[str, pd.DataFrame]:
     rows: dict[str, list[dict[str, object]]] = {
         name: [] for name in ("runs", "classes", "memory", "answers")
     }
-    size = section.flight_computer
-    counts_of_runs = {emulator.OWN: size.runs, emulator.GENERATED: size.generated_runs}
     with tempfile.TemporaryDirectory() as temporary:
         plugin = emulator.build_plugin(Path(temporary))
-        for number, whole in enumerate(recordings(section)):
-            references = _references(whole)
+        for number, recording in enumerate(recordings(section)):
+            references, few = _references(recording), _few(recording)
             for solver in SOLVERS:
                 folder = Path(temporary) / f"{number}-{solver}"
                 folder.mkdir()
-                recording = first_runs(whole, counts_of_runs[solver])
                 for name, processor in PROCESSORS.items():
                     key = {"processor": name, "solver": solver, **_key(recording)}
                     sizes = emulator.build(solver, processor, recording, folder)
                     answers, counts = emulator.replay(processor, recording, folder, plugin)
-                    few = _few(recording)
                     _, misses = emulator.replay(processor, few, folder, plugin, caches=True)
-                    own = references[: len(recording.steps)]
                     rows["runs"] += _runs(key, recording, answers, counts)
                     rows["classes"] += _classes(key, counts, misses)
                     rows["memory"].append(key | _memory(sizes, answers))
-                    rows["answers"].append(key | _compared(answers, own))
+                    rows["answers"].append(key | _compared(answers, references))
                     print(key, file=sys.stderr, flush=True)
     tables = {f"{name}.csv": pd.DataFrame(found) for name, found in rows.items()}
     return tables | {"provenance.csv": _provenance(section)}

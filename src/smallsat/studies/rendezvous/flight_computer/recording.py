@@ -6,7 +6,7 @@ is one phase with one horizon and sample time, from the thesis's kind of initial
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -112,9 +112,3 @@ def samples(recording: Recording) -> list[Sample]:
         program, _ = write_program(record, phase, state, float(step["time"]), empty_program(stages))
         found.append(Sample("", program, stages, state / record["scales"][phase]))
     return found
-
-
-def first_runs(recording: Recording, count: int) -> Recording:
-    """The steps of its first runs."""
-    kept = recording.runs < np.unique(recording.runs)[:count].max() + 1
-    return replace(recording, steps=recording.steps[kept], runs=recording.runs[kept])
