@@ -119,7 +119,7 @@ def problem() -> Problem:
         return float(np.max(np.abs(found - reference())))
 
     return Problem(
-        "rendezvous: the docking phase in closed loop",
+        "rendezvous: the docking loop",
         "largest difference of a velocity change from that of the loop around Clarabel with a "
         f"tolerance of {REFERENCE_TOLERANCE:g}, as a share of the largest one allowed",
         REQUIRED,
