@@ -19,7 +19,7 @@ from typing import Any
 import pandas as pd
 from contender import Problem
 
-MODULES = ("mars", "transfer", "mpc")
+MODULES = ("mars", "transfer", "slew", "mpc")
 OUTPUT = Path(__file__).parents[2] / "data/accepted/pipeline/bench.csv"
 
 
