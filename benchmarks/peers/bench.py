@@ -19,7 +19,7 @@ from typing import Any
 import pandas as pd
 from contender import Problem
 
-MODULES = ("mars", "transfer", "slew", "mpc")
+MODULES = ("mars", "transfer", "slew", "racing", "mpc")
 OUTPUT = Path(__file__).parents[2] / "data/accepted/pipeline/bench.csv"
 
 
