@@ -83,7 +83,7 @@ def main() -> None:
             taken = seconds(project, wait)
             print(f"{wait.what}: {taken:.1f} s, goal {wait.goal:g} s", flush=True)
             said = {"what": wait.what, "command": wait.command, "goal_s": wait.goal}
-            rows[name] = said | {"seconds": round(taken, 1)} | facts
+            rows[name] = facts | said | {"seconds": round(taken, 1)}
     found = pd.DataFrame([{"wait": name} | rows[name] for name in WAITS if name in rows])
     found.to_csv(OUTPUT, index=False, lineterminator="\n")
 
