@@ -9,7 +9,7 @@ export PIP_USER := 0
 PIP := $(VENV)/bin/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := all
-.PHONY: all test test-site explain compare accept what-ifs lint animations flight benchmark benchmark-baseline faults determinism lock clean lab dag scale test-slurm test-crate verify audit drift bench waiting
+.PHONY: all test test-site explain compare accept what-ifs lint animations flight benchmark faults determinism lock clean lab dag scale test-slurm test-crate verify audit drift bench waiting
 
 all: $(VENV)/installed
 	@snakemake all
@@ -164,11 +164,6 @@ $(BENCH)/installed: requirements.lock requirements.bench.lock
 # What a person waits for, against its goal: an hour and a half of both cores; WAITS names some of it.
 waiting: $(VENV)/installed
 	@python -m benchmarks.waiting $(WAITS)
-
-# The side-by-side baseline of benchmarks/slew_speed.py; nothing else uses it.
-# Without its dependencies, which would exchange the project's own CasADi.
-benchmark-baseline: $(VENV)/installed
-	$(PIP) --no-deps yapss==0.2.3 mpmath==1.3.0
 
 # Needs uv (pip install uv); only for changing dependencies.
 lock:
