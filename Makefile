@@ -161,7 +161,7 @@ $(BENCH)/installed: requirements.lock requirements.bench.lock
 	$(BENCH)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	@touch $@
 
-# What a person waits for, against its goal: an hour and a half of both cores; WAITS names some of it.
+# What a person waits for in a fresh clone, against its goal: an hour and more of both cores; WAITS names some of it.
 waiting: $(VENV)/installed
 	@python -m benchmarks.waiting $(WAITS)
 
