@@ -489,10 +489,10 @@ def mesh_figure(meshes: pd.DataFrame) -> Figure:
     for name, colour in COLOURS.items():
         rows = own[own["cubesat"] == name].sort_values("intervals")
         gain = 100.0 * (rows["time_s"] / rows["time_s"].iloc[-1] - 1.0)
-        left.plot(rows["intervals"], gain, "o-", color=colour, ls=STYLES[name], label=name)
+        left.plot(rows["intervals"], gain, marker="o", color=colour, ls=STYLES[name], label=name)
         if rows["primer_angle_median_deg"].notna().all():
             right.loglog(
-                rows["intervals"], rows["primer_angle_median_deg"], "o-", color=colour,
+                rows["intervals"], rows["primer_angle_median_deg"], marker="o", color=colour,
                 ls=STYLES[name],
             )  # fmt: skip
     left.set_xlabel("held pieces a segment")
