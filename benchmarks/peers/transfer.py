@@ -8,13 +8,14 @@ derivatives, as this project does it. The bounds of the final time are the docum
 """
 
 import os
-import sys
 import tempfile
 from pathlib import Path
 
 import numpy as np
 from contender import Contender, Problem
+from scipy.integrate import solve_ivp
 from scipy.interpolate import BarycentricInterpolator
+from scipy.optimize import minimize
 
 from smallsat.config import default_config
 from smallsat.optimal_control.collocation import (
@@ -27,6 +28,7 @@ from smallsat.studies.transfer.methods.collocation import GUESS_TIME, transcript
 from smallsat.studies.transfer.methods.direct import (
     Case,
     control_history,
+    interval_ends,
     published_guess,
     shooting_program,
 )
@@ -234,13 +236,39 @@ def _shooting():
 
 
 def _listing():
-    sys.path.insert(0, str(ROOT / "benchmarks"))
-    from transfer_speed import port_of_the_listing
-
     program = _published_program()
     bounds = list(zip(program.lower, program.upper, strict=True))
     guess = published_guess(CASE, SECTION.guess)
-    return lambda: control_history(CASE, port_of_the_listing(TRANSFER, CASE, guess, bounds).x)
+    return lambda: control_history(CASE, _port_of_the_listing(guess, bounds))
+
+
+def _port_of_the_listing(guess: np.ndarray, bounds: list[tuple[float, float]]) -> np.ndarray:
+    """Listings 6 to 11 in plain SciPy: nothing compiled, no derivatives."""
+
+    def errors(z: np.ndarray) -> np.ndarray:
+        interior, coefficients, final_time = CASE.split(z)
+        nodes = np.concatenate([TRANSFER.initial_state, interior]).reshape(-1, 5)
+        found = []
+        for k, row in enumerate(np.reshape(coefficients, (CASE.intervals, -1))):
+
+            def rate(tau: float, x: np.ndarray, row: np.ndarray = row) -> np.ndarray:
+                beta = np.polyval(row, tau)
+                return final_time / 2 * np.array(TRANSFER.state_rate(x, np.sin(beta), np.cos(beta)))
+
+            end = solve_ivp(rate, interval_ends(CASE, k), nodes[k], method="LSODA", rtol=1e-6)
+            state = end.y[:, -1]
+            last = k == CASE.intervals - 1
+            found.append(TRANSFER.terminal_error(state) if last else state - nodes[k + 1])
+        return np.concatenate(found)
+
+    return minimize(
+        lambda z: z[-1],
+        guess,
+        bounds=bounds,
+        constraints={"type": "eq", "fun": errors},
+        method="SLSQP",
+        options={"ftol": SLSQP_TOLERANCE, "maxiter": 1000},
+    ).x
 
 
 def _published_program() -> NonlinearProgram:
