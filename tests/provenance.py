@@ -12,7 +12,8 @@ ROOT = Path(__file__).parents[1]
 
 def provenance(command: str, *packages: str) -> dict[str, str]:
     """Facts by name; ``packages`` are those whose versions matter."""
-    describe = ["git", "describe", "--always", "--dirty"]
+    # A commit keeps its name, whatever is tagged.
+    describe = ["git", "describe", "--always", "--dirty", "--exclude=*"]
     commit = subprocess.run(describe, cwd=ROOT, capture_output=True, text=True, check=True)
     versions = [f"Python {platform.python_version()}"]
     return {
