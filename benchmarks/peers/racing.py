@@ -159,9 +159,9 @@ def _casadi():
     opti.subject_to(opti.bounded(LEAST, durations, LONGEST))
     opti.subject_to(speeds >= LEAST)
     start = np.r_[CUBESAT.position / LENGTH, np.zeros(3)]
+    piece = step.map(INTERVALS)
     for k in range(SEGMENTS):
         opti.subject_to(states[k][:, 0] == start)
-        piece = step.map(INTERVALS)
         flown = piece(
             states[k][:, :-1], controls[k], ca.repmat(durations[k] / INTERVALS, 1, INTERVALS)
         )

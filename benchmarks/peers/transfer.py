@@ -7,8 +7,6 @@ document's multiple shooting from the document's guess; it is solved once more w
 derivatives, as this project does it. The bounds of the final time are the document's for all.
 """
 
-import os
-import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -49,8 +47,6 @@ TOLERANCE = 1e-10
 CASE = Case(3, 8, "global")
 # Of SLSQP: that of the listing's port, and what dymos takes if none is named.
 SLSQP_TOLERANCE = 1e-6
-# What OpenMDAO writes; removed at the end.
-FILES = tempfile.TemporaryDirectory()
 
 
 def problem() -> Problem:
@@ -165,7 +161,6 @@ def _yapss():
 
 
 def _dymos():
-    os.environ["OPENMDAO_WORKDIR"] = FILES.name
     import dymos
     import openmdao.api as om
 
@@ -191,7 +186,7 @@ def _dymos():
             for name, rate in zip(STATES, rates, strict=True):
                 outputs[f"{name}_rate"] = rate
 
-    transfer = om.Problem(reports=False)
+    transfer = om.Problem(reports=False, work_dir=str(ROOT / ".cache/bench"))
     transfer.driver = om.ScipyOptimizeDriver(
         optimizer="SLSQP", tol=SLSQP_TOLERANCE, maxiter=1000, disp=False
     )
