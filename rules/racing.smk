@@ -38,6 +38,7 @@ for scenario in SCENARIOS:
     )
 
 step("racing", "variants", makes=["variants.csv"], **COURSES)
+step("racing", "without_thrust", makes=["without-thrust.csv"], **COURSES)
 step("racing", "simple_guesses", makes=["simple-guesses.csv"], **COURSES)
 step(
     "racing",
@@ -122,6 +123,7 @@ JUDGED["racing"] = [
     "random-courses.csv",
     "days-as-seeds.csv",
     "variants.csv",
+    "without-thrust.csv",
     "meshes.csv",
     "other-starts.csv",
     "simple-guesses.csv",

@@ -35,6 +35,7 @@ READERS = {
     "racing_optima_scenario_1",
     "racing_optima_scenario_2",
     "racing_variants",
+    "racing_without_thrust",
     "racing_simple_guesses",
     "racing_propellant",
     "racing_weighted_misses",

@@ -1,15 +1,17 @@
 """The solve of the listings: what it must reproduce of them, and that it is deterministic."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
 from smallsat.studies.racing.evidence.solver_claims import ranks_at
-from smallsat.studies.racing.methods.flight import least_time, propagate_segment
+from smallsat.studies.racing.methods import listing_races
+from smallsat.studies.racing.methods.flight import COSTATE, least_time, propagate_segment
 from smallsat.studies.racing.methods.listing import guess, solve_segment
-from smallsat.studies.racing.methods.listing_races import targets
+from smallsat.studies.racing.methods.listing_races import flights, targets, without_thrust
 from smallsat.studies.racing.methods.ode45 import end_of_flight
 from smallsat.studies.racing.model.shooting import (
     AXIS_BY_AXIS,
@@ -174,3 +176,32 @@ def test_the_equalities_are_dependent_everywhere(parameters):
     for z in (start, start * [1.0, 0.7, 1.3, 1.2, 0.9, 0.8, 0.5]):
         moving, rank, pointing = ranks_at(parameters, z, transposed=True)
         assert (moving <= 5, rank, pointing) == (True, 3, 2)
+
+
+def test_the_deadzone_forces_thrust_to_zero(parameters, section, monkeypatch):
+    """Where the primer goes from 0 through 1 to 2, Mo has no thrust for half of the segment."""
+    costates = dict.fromkeys(COSTATE, 0.0)
+    segments = [
+        {"cubesat": "Mo", "duration_s": 10.0, **costates, "pvx": 2.0},
+        # No primer at first, whose rate the costate of the place is, and the rest hardly moves.
+        {"cubesat": "Mo", "duration_s": 10.0, **costates, "pz": -0.2},
+    ]
+    solved = SimpleNamespace(segments=segments)
+    monkeypatch.setattr(listing_races, "solve_listing", lambda *_: solved)
+    table = without_thrust(parameters, section)
+    assert set(table["scenario"]) == {"scenario-1"}
+    assert len(table) == 1 + len(section.listing.other_tolerances)
+    assert (table["segments_without_thrust"] == 1).all()
+    assert table["without_thrust_s"].to_numpy() == pytest.approx(5.0, rel=1e-3)
+
+
+def test_flights_differ_in_their_tolerance_alone(parameters, section):
+    """The listing's own and the others, each once."""
+    solves = flights(parameters.listing, section)
+    assert {one.tolerance for one in solves} == {
+        parameters.listing.tolerance,
+        *section.listing.other_tolerances,
+    }
+    assert {replace(one, tolerance=1.0) for one in solves} == {
+        replace(parameters.listing, tolerance=1.0)
+    }

@@ -1,11 +1,13 @@
 """The races as the listings solve them, segment after segment, as tidy tables."""
 
 import time
+from collections.abc import Hashable, Mapping
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pandas as pd
+from scipy.linalg import expm
 
 from smallsat.studies.racing.configuration import Configuration
 from smallsat.studies.racing.methods import attempts
@@ -28,9 +30,17 @@ from smallsat.studies.racing.methods.races import (
 )
 from smallsat.studies.racing.model.course import Course
 from smallsat.studies.racing.model.cubesat import CubeSat
+from smallsat.studies.racing.model.shooting import costate_matrix, law_of, thrust_of
 from smallsat.studies.racing.parameters import Listing, Parameters
 
-AS_LISTED, DIRECT_GUESS = "as listed", "guess from the direct method"
+# Variants of our solve of the listing.
+AS_LISTED, MENDED = "as listed", "both"
+DIRECT_GUESS, MENDED_DIRECT_GUESS = (
+    "guess from the direct method",
+    "both, guess from the direct method",
+)
+# Points a segment at which its thrust is looked at.
+IDLE_POINTS = 2000
 
 
 def solve_listing(
@@ -163,26 +173,83 @@ def _flown(
     return segment_table(number, began, times, flown, cubesat, listing.deadzone)
 
 
+def flights(listing: Listing, section: Configuration) -> list[Listing]:
+    """The same solve on flights to the listing's tolerance, and to others next to it.
+
+    None converges, so that where each ends hangs on the last bits of its flights, and with them on
+    the processor. What holds of all of them hangs on neither.
+    """
+    tolerances = {listing.tolerance, *section.listing.other_tolerances}
+    return [replace(listing, tolerance=one) for one in sorted(tolerances, reverse=True)]
+
+
 def variants(
     parameters: Parameters, section: Configuration, scenario: str, cubesats: tuple[str, ...] = ()
 ) -> pd.DataFrame:
-    """What our solve of the listing becomes where one thing is done otherwise."""
+    """What our solve of the listing becomes where one thing is done otherwise, on all `flights`."""
     base = parameters.listing
     mended = replace(base, ring_sizes=True, transposed=True)
     changes = {
         AS_LISTED: base,
         "rings have their smaller axis as size": replace(base, ring_sizes=True),
         "costates mended": replace(base, transposed=True),
-        "both": mended,
+        MENDED: mended,
         DIRECT_GUESS: replace(base, direct_guess=True),
-        f"both, {DIRECT_GUESS}": replace(mended, direct_guess=True),
-    } | {
-        f"flights to {tolerance:g}": replace(base, tolerance=tolerance)
-        for tolerance in section.listing.other_tolerances
+        MENDED_DIRECT_GUESS: replace(mended, direct_guess=True),
     }
     parts = []
-    for name, listing in changes.items():
-        table = pd.DataFrame(solve_listing(parameters, section, scenario, listing, cubesats).races)
-        table["solution"] = name
-        parts.append(table.rename(columns={"solution": "variant"}))
+    for name, changed in changes.items():
+        for listing in flights(changed, section):
+            races = solve_listing(parameters, section, scenario, listing, cubesats).races
+            # Which solve it is stands in the name of the variant.
+            table = pd.DataFrame(races).drop(columns="solution")
+            table.insert(2, "variant", name)
+            table.insert(3, "tolerance", listing.tolerance)
+            parts.append(table)
     return pd.concat(parts, ignore_index=True)
+
+
+def without_thrust(parameters: Parameters, section: Configuration) -> pd.DataFrame:
+    """How long the deadzone leaves CubeSats with thrusters on axes without any thrust, s.
+
+    In our solves of the listing of every race, on all `flights`; a row each.
+    """
+    rows = []
+    for scenario, race in parameters.races.items():
+        bound = {craft.name: craft for craft in race.cubesats if craft.axis_thrust}
+        if not bound:
+            continue
+        for listing in flights(parameters.listing, section):
+            solved = solve_listing(parameters, section, scenario, listing, tuple(bound)).segments
+            for name, segments in pd.DataFrame(solved).groupby("cubesat", sort=False):
+                idle = [
+                    _idle(segment, bound[str(name)], parameters.mean_motion, listing)
+                    for segment in segments.to_dict("records")
+                ]
+                rows.append(
+                    {
+                        "scenario": scenario,
+                        "cubesat": name,
+                        "tolerance": listing.tolerance,
+                        "segments": len(idle),
+                        "segments_without_thrust": int(np.count_nonzero(idle)),
+                        "without_thrust_s": sum(idle),
+                    }
+                )
+    columns = ["scenario", "cubesat", "tolerance", "segments"]
+    return pd.DataFrame(rows, columns=[*columns, "segments_without_thrust", "without_thrust_s"])
+
+
+def _idle(
+    segment: Mapping[Hashable, Any], cubesat: CubeSat, mean_motion: float, listing: Listing
+) -> float:
+    """Seconds of a segment in which no component of the primer is above the deadzone."""
+    law, limits = law_of(cubesat)
+    step = expm(
+        costate_matrix(mean_motion, listing.transposed) * segment["duration_s"] / IDLE_POINTS
+    )
+    costate, idle = np.array([segment[name] for name in COSTATE]), 0
+    for _ in range(IDLE_POINTS):
+        idle += not thrust_of(costate[3:].copy(), law, limits, listing.deadzone).any()
+        costate = step @ costate
+    return segment["duration_s"] * idle / IDLE_POINTS
