@@ -21,6 +21,7 @@ import pandas as pd
 
 from smallsat.catalogue import read_catalogue
 from smallsat.strict_yaml import read_yaml
+from smallsat.workflow.isolation import KERNEL
 from tests.determinism.bytes_compared import Compared, Moved, compared, moved_digits, outcomes
 from tests.determinism.variations import ONE, OTHER, build, copied, make_locale
 from tests.project_copy import Project
@@ -147,7 +148,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("studies", nargs="*", help="studies to build; all if none is given")
     parser.add_argument("--configfile", default="", help="else the documents' own values")
-    parser.add_argument("--kernel", default="Haswell", help="another kernel of OpenBLAS")
+    parser.add_argument("--kernel", default="Sandybridge", help="another kernel of OpenBLAS")
     parser.add_argument("--folder", type=Path, help="where the copies of the project go")
     arguments = parser.parse_args()
     if os.geteuid() != 0:
@@ -155,6 +156,8 @@ def main() -> None:
     studies = arguments.studies or [study.name for study in read_catalogue(ROOT / "data/published")]
     given = ["--configfile", arguments.configfile] * bool(arguments.configfile)
     words = [*targets(arguments.studies), *given]
+    if arguments.kernel == KERNEL:
+        sys.exit(f"determinism: --kernel {KERNEL} is that of every build; name another")
     kernel = replace(ONE, path="kernel", cores=2, kernel=arguments.kernel)
     facts = provenance("make determinism", "snakemake", "numpy", "typst") | {
         "configuration": arguments.configfile or "the documents' own",

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from smallsat.workflow.isolation import KERNEL
 from tests.project_copy import Project, copy_project
 
 NOBODY = 65534
@@ -34,7 +35,7 @@ class Circumstances:
     compiled
         Whether inner loops come from Numba's cache; else they are compiled anew.
     kernel
-        OpenBLAS's kernel of a processor; the machine's own if empty.
+        OpenBLAS's kernel; that of every build if empty.
     """
 
     path: str
@@ -61,7 +62,7 @@ class Circumstances:
             "hash seed": "random in each process",
             "file order": "shuffled by disorderfs" if self.shuffled else "the disk's",
             "compiled loops": "from the cache" if self.compiled else "compiled anew",
-            "OpenBLAS kernel": self.kernel or "the processor's own",
+            "OpenBLAS kernel": self.kernel or KERNEL,
         }
 
 
@@ -114,7 +115,7 @@ def copied(root: Path, builds: Path, how: Circumstances) -> Iterator[Project]:
             "TZ": how.time_zone,
         }
         if how.kernel:
-            environment["OPENBLAS_CORETYPE"] = how.kernel
+            environment["SMALLSAT_KERNEL"] = how.kernel
         yield Project(folder, environment)
     finally:
         if how.shuffled:

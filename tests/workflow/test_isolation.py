@@ -1,8 +1,14 @@
 """The user's own settings reach nothing: the same bytes, always this environment."""
 
 import json
+import os
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
+
+from smallsat.workflow.isolation import KERNEL, has_instructions, isolated
 
 FIGURE = "figures/mars/fig-10"
 FORMATS = ("svg", "pdf", "png", "csv")
@@ -70,3 +76,34 @@ def test_a_file_of_the_run_is_no_module(built):
     for name in ("numpy.py", "matplotlibrc"):
         (built.folder / name).write_text("raise SystemExit('the wrong one')\n")
     assert drawn_again(built) == before
+
+
+@pytest.mark.skipif(
+    not has_instructions(Path("/proc/cpuinfo")), reason="this processor has another kernel"
+)
+@pytest.mark.parametrize(
+    "theirs", [{}, {"OPENBLAS_CORETYPE": "Prescott", "OPENBLAS_L2_SIZE": "64"}]
+)
+@pytest.mark.parametrize("named", ["", "Sandybridge"])
+def test_one_kernel_of_the_linear_algebra(tmp_path, theirs, named):
+    """Whatever the processor and the user's settings; another only by the project's variable."""
+    own = isolated(os.environ | theirs | {"SMALLSAT_KERNEL": named}, tmp_path)
+    done = subprocess.run(
+        [sys.executable, "-c", "import numpy"],
+        env=own | {"OPENBLAS_VERBOSE": "2"},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stderr.split() == ["Core:", named or KERNEL]
+    assert "OPENBLAS_L2_SIZE" not in own
+
+
+def test_a_processor_without_the_instructions_keeps_its_own_kernel(tmp_path):
+    """An old one, or one that says nothing of itself."""
+    old = tmp_path / "cpuinfo"
+    old.write_text("flags : sse2 avx\n")
+    assert not has_instructions(old)
+    assert not has_instructions(tmp_path / "none")
+    old.write_text("flags : sse2 avx fma avx2\n")
+    assert has_instructions(old)

@@ -3,6 +3,11 @@
 A matplotlibrc, an IPython start-up file, a kernel of another Python, a PYTHONPATH: each would
 change results or stop the build, and none of them is in the project. What these tools must write
 goes to a folder of the project, so that no home folder is needed either.
+
+Nor does the processor decide: OpenBLAS has a kernel for each kind, whose sums differ in their last
+bits, and a solve that does not converge ends elsewhere by them. One kernel is taken wherever the
+processor has its instructions, which is nearly every one for personal computers since 2013;
+`SMALLSAT_KERNEL` names another, for comparison.
 """
 
 import os
@@ -10,8 +15,12 @@ import sys
 from collections.abc import Mapping
 from pathlib import Path
 
-# Variables that point Python, Jupyter, IPython or matplotlib at files of the user.
-_FOREIGN = ("PYTHON", "JUPYTER", "IPYTHON", "MPL", "MATPLOTLIB", "NUMBA", "PAPERMILL")
+# Variables that point tools at files of the user, or tune the linear algebra.
+_FOREIGN = (
+    "PYTHON", "JUPYTER", "IPYTHON", "MPL", "MATPLOTLIB", "NUMBA", "PAPERMILL", "OPENBLAS", "GOTO",
+)  # fmt: skip
+# OpenBLAS's name of the kernel, the instructions that it needs, and where Linux lists those.
+KERNEL, _NEEDED, _PROCESSOR = "Haswell", {"avx2", "fma"}, Path("/proc/cpuinfo")
 
 
 def isolated(environment: Mapping[str, str], cache: Path) -> dict[str, str]:
@@ -32,6 +41,7 @@ def isolated(environment: Mapping[str, str], cache: Path) -> dict[str, str]:
     """
     kept = {name: value for name, value in environment.items() if not name.startswith(_FOREIGN)}
     cache = cache.absolute()
+    kernel = kept.get("SMALLSAT_KERNEL") or (KERNEL if has_instructions(_PROCESSOR) else "")
     programs = str(Path(sys.executable).parent)
     path = [part for part in kept.get("PATH", os.defpath).split(os.pathsep) if part != programs]
     return kept | {
@@ -49,7 +59,16 @@ def isolated(environment: Mapping[str, str], cache: Path) -> dict[str, str]:
         # One process a core, each on one thread: results do not depend on the number of cores.
         "OMP_NUM_THREADS": "1",
         "OPENBLAS_NUM_THREADS": "1",
+        **({"OPENBLAS_CORETYPE": kernel} if kernel else {}),
     }
+
+
+def has_instructions(processor: Path) -> bool:
+    """Whether a list of the processor's flags, as Linux has it, names those that `KERNEL` needs."""
+    try:
+        return set(processor.read_text().split()) >= _NEEDED
+    except OSError:
+        return False
 
 
 def isolate(cache: Path) -> None:
