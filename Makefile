@@ -31,14 +31,15 @@ $(VENV)/installed: requirements.lock pyproject.toml
 
 # The tests read results and verdicts of their own, in runs/tests/; Snakemake makes them first,
 # and each of its jobs notes the files that it opens.
+TESTS_RUN = SMALLSAT_OPENED=$(CURDIR)/runs/tests/opened snakemake --configfile config/tests.yaml --
 test: $(VENV)/installed
-	@SMALLSAT_OPENED=$(CURDIR)/runs/tests/opened snakemake results --configfile config/tests.yaml
+	@$(TESTS_RUN) results
 	@python -m pytest -n 2 --dist loadfile --cov --cov-report=term --cov-report=html
 
 # The web site of the tests' run in Debian's chromium. Once its driver is there, `make test` does so too.
 test-site: $(VENV)/browser
 	@command -v chromium >/dev/null || { echo "make: chromium not found; install it (Debian: apt-get install chromium)" >&2; exit 2; }
-	@snakemake verdicts --configfile config/tests.yaml
+	@$(TESTS_RUN) verdicts
 	@python -m pytest tests/site
 
 $(VENV)/browser: requirements.browser.lock $(VENV)/installed
@@ -88,9 +89,10 @@ compare: $(VENV)/installed
 # Takes the present results, of the reproduction and of the tests' run, as accepted; REASON says why.
 accept: $(VENV)/installed
 	@snakemake verdicts
-	@snakemake verdicts --configfile config/tests.yaml
+	@$(TESTS_RUN) verdicts
 	@python -m smallsat accept --reason "$$REASON"
 	@python -m smallsat seconds logs --output data/accepted/seconds.csv
+
 # The notebooks in JupyterLab, which the first call installs; what they draw goes into runs/lab.
 # LAB has options of JupyterLab, such as --no-browser.
 lab: $(VENV)/lab
