@@ -87,10 +87,12 @@ def moved_digits(one: Path, other: Path, name: str) -> Iterator[Moved]:
             a, b = before.to_numpy(float), after.to_numpy(float)
             differs = ~((a == b) | (np.isnan(a) & np.isnan(b)))
             # Against the largest entry of the column, so that a zero has a measure.
-            scale = np.nanmax(np.abs(a)) if len(a) else 1.0
-            worst = np.max(np.abs(a - b)[differs], initial=0.0) / (scale or 1.0)
+            scale = np.max(np.abs(a), where=~np.isnan(a), initial=0.0)
+            worst = np.max(np.abs(a[differs] - b[differs]), initial=0.0) / (scale or 1.0)
         else:
-            differs = (before.astype(str) != after.astype(str)).to_numpy()
+            # In words, since an empty entry is not equal to itself.
+            pairs = zip(before, after, strict=True)
+            differs = np.array([str(a) != str(b) for a, b in pairs], bool)
             worst = float("nan")
         if differs.any():
             yield Moved(name, str(column), int(differs.sum()), len(differs), float(worst))
