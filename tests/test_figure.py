@@ -43,3 +43,15 @@ def test_fonts_travel_with_the_file(tmp_path):
     draw(tmp_path / "one")
     assert "<text" not in (tmp_path / "one.svg").read_text()
     assert b"/FontFile2" in (tmp_path / "one.pdf").read_bytes()
+
+
+def test_places_do_not_hang_on_the_solver(tmp_path):
+    """Axes stand at nine digits, before the next layout and after it."""
+    figure, _ = plt.subplots(2, 2, layout="constrained")
+    for _ in range(2):
+        save_figure(figure, tmp_path / "figure", pd.DataFrame({"x": [1.0]}))
+        for axes in figure.axes:
+            place = axes.get_position(original=True).extents
+            assert (place == place.round(9)).all()
+            assert axes.get_in_layout()
+    plt.close(figure)

@@ -2,8 +2,11 @@
 
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.transforms import Bbox
 
 from smallsat.results import write_table
 
@@ -16,6 +19,24 @@ _METADATA: dict[str, dict[str, None]] = {
     "pdf": {"CreationDate": None, "ModDate": None},
     "png": {},
 }
+
+
+class SteadyLayout(ConstrainedLayoutEngine):
+    """Matplotlib's constrained layout to nine digits.
+
+    Its solver orders its unknowns by their addresses, so that places differ in their last bits from
+    process to process, and with them how a long line is thinned out.
+    """
+
+    def execute(self, fig: Figure) -> None:
+        """Lay the axes of a figure out."""
+        super().execute(fig)
+        for axes in fig.axes:
+            place = np.round(axes.get_position(original=True).extents, 9)
+            # As the layout itself does; the public function would take the axes out of it.
+            axes._set_position(  # type: ignore[attr-defined]
+                Bbox.from_extents(*place), which="original"
+            )
 
 
 def save_figure(figure: Figure, stem: Path | str, data: pd.DataFrame) -> None:
@@ -32,6 +53,9 @@ def save_figure(figure: Figure, stem: Path | str, data: pd.DataFrame) -> None:
     """
     stem = Path(stem)
     stem.parent.mkdir(parents=True, exist_ok=True)
+    layout = figure.get_layout_engine()
+    if isinstance(layout, ConstrainedLayoutEngine):
+        figure.set_layout_engine(SteadyLayout(**layout.get()))
     for suffix in FORMATS:
         figure.savefig(stem.with_suffix(f".{suffix}"), metadata=_METADATA[suffix])
     write_table(data, stem.with_suffix(".csv"))
