@@ -340,7 +340,7 @@ TRACE = ["time_s", "x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s", "ux_m_s2",
          "uz_m_s2", "px", "py", "pz", "pvx", "pvy", "pvz"]  # fmt: skip
 
 
-def _listing_paths(parameters, folder, swing=1.0, kick=0.0, thrust=0.1):
+def _listing_paths(parameters, folder, swing=1.0, kick=0.0):
     """Paths of the listing's law for two segments of Mo, made by the exponential of its matrix."""
     from scipy.linalg import expm
 
@@ -353,7 +353,7 @@ def _listing_paths(parameters, folder, swing=1.0, kick=0.0, thrust=0.1):
         for k in range(11):
             costates = expm(matrix * 10.0 * k) @ first + kick * (k == 5)
             sign = swing * (-1.0) ** k
-            row = [100.0 * segment + 10.0 * k, *np.zeros(6), *(thrust * sign * np.ones(3))]
+            row = [100.0 * segment + 10.0 * k, *np.zeros(6), *(0.1 * sign * np.ones(3))]
             rows.append([LISTING, "Mo", segment, *row, *costates])
     table = pd.DataFrame(rows, columns=["solution", "cubesat", "segment", *TRACE])
     write_table(table, folder / "listing-scenario-1-trajectories.parquet")

@@ -39,6 +39,9 @@ DIRECT_GUESS, MENDED_DIRECT_GUESS = (
     "guess from the direct method",
     "both, guess from the direct method",
 )
+# Columns of the table that `without_thrust` makes, also where no CubeSat is bound to its axes.
+WITHOUT_THRUST = ["scenario", "cubesat", "tolerance", "segments"]
+WITHOUT_THRUST += ["segments_without_thrust", "without_thrust_s"]
 # Points a segment at which its thrust is looked at.
 IDLE_POINTS = 2000
 
@@ -236,8 +239,7 @@ def without_thrust(parameters: Parameters, section: Configuration) -> pd.DataFra
                         "without_thrust_s": sum(idle),
                     }
                 )
-    columns = ["scenario", "cubesat", "tolerance", "segments"]
-    return pd.DataFrame(rows, columns=[*columns, "segments_without_thrust", "without_thrust_s"])
+    return pd.DataFrame(rows, columns=WITHOUT_THRUST)
 
 
 def _idle(
