@@ -7,6 +7,7 @@ listed.
 
 import argparse
 import os
+import shutil
 import sys
 import tempfile
 from collections import Counter
@@ -29,6 +30,8 @@ from tests.provenance import provenance
 
 ROOT = Path(__file__).parents[2]
 TABLES = ROOT / "data/accepted/pipeline"
+# What two builds do not have in common, to be looked at.
+DIFFERING = ROOT / "logs/determinism"
 COLUMNS = ("kind", "files", "identical", "excepted", "reason")
 # What may differ, and why.
 SECONDS = "measured seconds"
@@ -92,6 +95,16 @@ def kept(path: Path, columns: Sequence[str], studies: str, rows: list[dict[str, 
     pd.concat([others, new]).to_csv(path, index=False, lineterminator="\n")
 
 
+def set_aside(one: Path, other: Path, found: list[Compared], folder: Path) -> None:
+    """Copy either version of what differs to a folder, since the builds are deleted."""
+    shutil.rmtree(folder, ignore_errors=True)
+    for file in found:
+        for place, side in ((one, "one"), (other, "other")):
+            if not file.same and (place / file.name).exists():
+                (folder / side / file.name).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(place / file.name, folder / side / file.name)
+
+
 def judge(
     one: Path, other: Path, third: Path, studies: list[str], facts: dict[str, str], kernel: str
 ) -> bool:
@@ -101,6 +114,7 @@ def judge(
     """
     timed = {study for study in studies if (one / f"data/results/{study}/timings.csv").exists()}
     found = list(compared(one, other))
+    set_aside(one, other, found, DIFFERING)
     names = " ".join(studies)
     rows = summary(found, timed)
     unexcused = [file.name for file in found if not file.same and not reason(file, timed)]
@@ -138,6 +152,7 @@ def judge(
     )
     print(pd.DataFrame(rows).to_string(index=False))
     print(*(f"differs: {name}" for name in unexcused), sep="\n")
+    print(f"Both versions of every file that differs: {DIFFERING.relative_to(ROOT)}")
     print(f"on {kernel}: {len(flipped)} of {len(before)} outcomes other, {flipped}")
     print(pd.DataFrame([asdict(move) for move in moved]).to_string(index=False))
     return not unexcused and not flipped
