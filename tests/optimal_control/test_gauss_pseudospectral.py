@@ -1,5 +1,7 @@
 """The Gauss pseudospectral method, held controls and switching times on problems solved by hand."""
 
+from dataclasses import replace
+
 import casadi as ca
 import numpy as np
 import pytest
@@ -42,6 +44,25 @@ def test_differentiation_and_quadrature_are_exact_for_polynomials(nodes):
     assert matrix.shape == (nodes, nodes + 1)
     np.testing.assert_allclose(matrix @ support**nodes, nodes * points ** (nodes - 1), atol=1e-10)
     assert weights @ points ** (2 * nodes - 2) == pytest.approx(2.0 / (2 * nodes - 1), rel=1e-12)
+
+
+@pytest.mark.parametrize("mesh", [Mesh(1, 8), Mesh(4, 3)])
+def test_jacobian_by_parts_is_that_of_the_constraints(mesh):
+    """Of what couples points and what does not, against CasADi's of the whole: the same numbers."""
+    pendulum = replace(
+        double_integrator((1.0, 9.0), True),
+        rate=lambda x, u, t, p: ca.vertcat(x[1], ca.sin(x[0]) * ca.cos(t) + p[0] * u[0]),
+        terminal=lambda x, t: ca.vertcat(x[0] * x[1] - t, x[1]),
+        parameters=1,
+    )
+    program = GaussPseudospectral(pendulum, mesh).program
+    x, p = program.variables, program.parameters
+    whole = ca.jacobian(program.constraints, x)
+    both = ca.Function("both", [x, p], [whole, program.jacobian])
+    z = np.random.default_rng(3).normal(size=x.shape[0])
+    expected, found = both(z, [0.7])
+    assert expected.nnz() == found.nnz() > 0
+    np.testing.assert_array_equal(found.full(), expected.full())
 
 
 @pytest.mark.parametrize("mesh", [Mesh(1, 8), Mesh(4, 3)])

@@ -138,7 +138,9 @@ class GaussPseudospectral:
         parameters = ca.SX.sym("p", problem.parameters)
         h = final / mesh.segments
         start: Any = ca.DM(problem.initial)
-        variables, constraints = [], []
+        # The constraints are the difference of what is linear in the states, which couples all
+        # points of a segment, and of the dynamics, of which each belongs to one point.
+        variables, coupled, pointwise = [], [], []
         objective: Any = 0.0
         for s in range(mesh.segments):
             states, controls = ca.SX.sym("X", n, k), ca.SX.sym("U", m, k)
@@ -151,11 +153,12 @@ class GaussPseudospectral:
                 rates.append(self._rate(*arguments))
                 costs.append(self._cost(*arguments))
             f = ca.horzcat(*rates)
-            collocated = ca.mtimes(ca.horzcat(start, states), matrix) - h / 2.0 * f
-            constraints += [ca.vec(collocated), end - start - h / 2.0 * ca.mtimes(f, weights)]
+            coupled += [ca.vec(ca.mtimes(ca.horzcat(start, states), matrix)), end - start]
+            pointwise += [ca.vec(h / 2.0 * f), h / 2.0 * ca.mtimes(f, weights)]
             objective += h / 2.0 * ca.dot(weights, ca.vertcat(*costs))
             start = end
-        constraints.append(ca.vertcat(problem.terminal(start, final)))
+        coupled.append(ca.vertcat(problem.terminal(start, final)))
+        pointwise.append(ca.SX.zeros(coupled[-1].shape[0]))
         objective += problem.end_cost(start, final, parameters)
         lower, upper = (
             np.r_[
@@ -171,13 +174,16 @@ class GaussPseudospectral:
             ]
             for i in (0, 1)
         )
+        z = ca.vertcat(*variables, final)
+        linear, dynamics = ca.vertcat(*coupled), ca.vertcat(*pointwise)
         self.program = NonlinearProgram(
-            ca.vertcat(*variables, final),
+            z,
             objective,
-            ca.vertcat(*constraints),
+            linear - dynamics,
             lower,
             upper,
             parameters,
+            ca.jacobian(linear, z) - ca.jacobian(dynamics, z),
         )
 
     def guess(

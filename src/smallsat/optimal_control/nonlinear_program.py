@@ -25,6 +25,9 @@ class NonlinearProgram:
         Bounds (n,); may be infinite.
     parameters
         Symbols (p,) that are given a value at each solve, if any.
+    jacobian
+        That of the constraints, (m, n), where there is a shorter way to it than to differentiate
+        all of them by all variables.
     """
 
     variables: Any
@@ -33,6 +36,7 @@ class NonlinearProgram:
     lower: np.ndarray
     upper: np.ndarray
     parameters: Any = None
+    jacobian: Any = None
 
 
 @dataclass(frozen=True)
@@ -213,9 +217,13 @@ class IpoptSolver:
         symbols = {"x": program.variables, "f": program.objective, "g": program.constraints}
         if program.parameters is not None:
             symbols["p"] = program.parameters
-        self._solver = ca.nlpsol(
-            "solver", "ipopt", symbols, {"print_time": False, "expand": expand, "ipopt": settings}
-        )
+        ours: dict[str, Any] = {"print_time": False, "expand": expand, "ipopt": settings}
+        if program.jacobian is not None:
+            names = ["x", "p"], ["g", "jac_g_x"]
+            inputs = [program.variables, symbols.get("p", ca.SX(0, 1))]
+            outputs = [program.constraints, program.jacobian]
+            ours["jac_g"] = ca.Function("nlp_jac_g", inputs, outputs, *names)
+        self._solver = ca.nlpsol("solver", "ipopt", symbols, ours)
 
     def solve(
         self, guess: np.ndarray | Sequence[float], parameters: Sequence[float] = ()
