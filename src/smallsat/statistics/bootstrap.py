@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -67,11 +68,20 @@ def effect(
     if units == 0:
         return Effect(name, np.nan, np.nan, np.nan, 0)
     everyone = np.arange(units)[None, :]
-    generator = np.random.Generator(np.random.Philox(key=bootstrap.seed))
-    drawn = generator.integers(0, units, size=(bootstrap.resamples, units))
     tail = 0.5 * (1.0 - bootstrap.confidence) / comparisons
+    drawn = _drawn(bootstrap.seed, bootstrap.resamples, units)
     low, high = np.quantile(statistic(drawn), [tail, 1.0 - tail])
     return Effect(name, float(statistic(everyone)[0]), float(low), float(high), units)
+
+
+# A study asks for the same few numbers of units thousands of times.
+@lru_cache(maxsize=8)
+def _drawn(seed: int, resamples: int, units: int) -> np.ndarray:
+    """Index arrays (resamples, units), read-only, the same at each call."""
+    generator = np.random.Generator(np.random.Philox(key=seed))
+    drawn = generator.integers(0, units, size=(resamples, units))
+    drawn.setflags(write=False)
+    return drawn
 
 
 def _text(value: float) -> str:
