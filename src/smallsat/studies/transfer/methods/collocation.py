@@ -150,12 +150,13 @@ def transcription(
 
 def extremal_guess(extremal: pd.DataFrame, mesh: Collocation) -> np.ndarray:
     """An extremal, a table of `propagate_extremal`, as the variables of a `transcription`."""
-    angle = np.unwrap(extremal["beta"])
+    times, angle = extremal["t"].to_numpy(), np.unwrap(extremal["beta"])
+    states = [extremal[name].to_numpy() for name in STATES]
     return collocation_guess(
         mesh,
-        float(extremal["t"].iloc[-1]),
-        lambda t: np.array([np.interp(t, extremal["t"], extremal[name]) for name in STATES]),
-        lambda t: float(np.interp(t, extremal["t"], angle)),
+        float(times[-1]),
+        lambda t: np.array([np.interp(t, times, state) for state in states]),
+        lambda t: float(np.interp(t, times, angle)),
     )
 
 
