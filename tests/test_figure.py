@@ -1,5 +1,7 @@
 """Figures: equal data give equal bytes in all formats, and the data drawn lie beside them."""
 
+import warnings
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
@@ -54,4 +56,16 @@ def test_places_do_not_hang_on_the_solver(tmp_path):
             place = axes.get_position(original=True).extents
             assert (place == place.round(9)).all()
             assert axes.get_in_layout()
+    plt.close(figure)
+
+
+def test_a_figure_without_a_layout_keeps_its_places_and_warns_of_nothing(tmp_path):
+    """Saved in three formats under a style that lays figures out."""
+    apply_style()
+    figure = plt.figure(layout="none")
+    axes = figure.add_axes((0.1, 0.2, 0.3, 0.4))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        save_figure(figure, tmp_path / "figure", pd.DataFrame({"x": [1.0]}))
+    np.testing.assert_allclose(axes.get_position().bounds, (0.1, 0.2, 0.3, 0.4), rtol=1e-12)
     plt.close(figure)

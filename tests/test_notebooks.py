@@ -71,6 +71,20 @@ def test_a_notebook_runs_as_it_stands(notebook, by_hand_project, written, monkey
     assert Path.cwd() == by_hand_project
 
 
+def test_no_notebook_of_a_build_warns(tested_run):
+    """What a cell writes to the error stream names places of the machine that it ran on."""
+    executed = sorted((tested_run / "data/results").glob("*/notebooks/*.ipynb"))
+    assert executed
+    warned = [
+        (path.name, "".join(output["text"]))
+        for path in executed
+        for cell in json.loads(path.read_text())["cells"]
+        for output in cell.get("outputs", [])
+        if output.get("name") == "stderr"
+    ]
+    assert warned == []
+
+
 def test_a_study_that_is_not_built_is_answered_with_what_to_build(tmp_path, monkeypatch):
     monkeypatch.setattr(by_hand, "PROJECT", tmp_path)
     monkeypatch.chdir("/")

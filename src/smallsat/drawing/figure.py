@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
-from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.layout_engine import ConstrainedLayoutEngine, PlaceHolderLayoutEngine
 from matplotlib.transforms import Bbox
 
 from smallsat.results import write_table
@@ -56,6 +56,11 @@ def save_figure(figure: Figure, stem: Path | str, data: pd.DataFrame) -> None:
     layout = figure.get_layout_engine()
     if isinstance(layout, ConstrainedLayoutEngine):
         figure.set_layout_engine(SteadyLayout(**layout.get()))
+    elif layout is None:
+        # Where there is none, Matplotlib gives a figure that was saved once the style's own.
+        figure.set_layout_engine(
+            PlaceHolderLayoutEngine(adjust_compatible=True, colorbar_gridspec=True)
+        )
     for suffix in FORMATS:
         figure.savefig(stem.with_suffix(f".{suffix}"), metadata=_METADATA[suffix])
     write_table(data, stem.with_suffix(".csv"))
