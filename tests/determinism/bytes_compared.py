@@ -1,6 +1,7 @@
 """What two builds have in common, byte by byte, kind by kind; and which digits moved."""
 
 import json
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,15 +23,19 @@ FOLDERS = ("data/results", "figures", "report/build")
 # Keys of an executed notebook that tell the time; the cell of parameters that papermill adds has an
 # invented name beside.
 TIMES = ("start_time", "end_time", "duration", "execution")
+# Files whose words can be read; a PDF is compressed.
+TEXTS = (".csv", ".json", ".html", ".svg", ".css", ".js", ".xml", ".bib", ".accepted")
+NUMBER = re.compile(r"[-+−]?\d+(?:[.,]\d+)*(?:e[-+]?\d+)?")
 
 
 @dataclass(frozen=True)
 class Compared:
-    """A file of both builds, or of one of them."""
+    """A file of both builds, or of one of them; ``words``: at most numbers differ in a text."""
 
     name: str
     kind: str
     same: bool
+    words: bool
 
 
 def files(build: Path) -> set[str]:
@@ -47,8 +52,10 @@ def compared(one: Path, other: Path) -> Iterator[Compared]:
     """Every file of either build."""
     ours, theirs = files(one), files(other)
     for name in sorted(ours | theirs):
-        same = name in ours & theirs and _content(one / name) == _content(other / name)
-        yield Compared(name, kind(name), same)
+        both = name in ours & theirs
+        same = both and _content(one / name) == _content(other / name)
+        words = same or (both and _words(one / name) == _words(other / name))
+        yield Compared(name, kind(name), same, words)
 
 
 def kind(name: str) -> str:
@@ -118,6 +125,10 @@ def _content(path: Path) -> Any:
     if path.suffix != ".ipynb":
         return path.read_bytes()
     return json.dumps(_timeless(json.loads(path.read_bytes())), sort_keys=True)
+
+
+def _words(path: Path) -> str:
+    return NUMBER.sub("#", path.read_text()) if path.suffix in TEXTS else ""
 
 
 def _timeless(node: Any) -> Any:

@@ -33,14 +33,18 @@ TABLES = ROOT / "data/accepted/pipeline"
 # What two builds do not have in common, to be looked at.
 DIFFERING = ROOT / "logs/determinism"
 COLUMNS = ("kind", "files", "identical", "excepted", "reason")
-# What may differ, and why.
+# What may differ, in numbers alone, and why.
 SECONDS = "measured seconds"
 EXCEPTIONS = {
     "data/results/*/*seconds*.csv": SECONDS,
     "data/results/*/timings.csv": SECONDS,
 }
-# These show the seconds of a study that has any.
-SHOWING = ("report/build/{study}.*",)
+# These show the seconds of a study that has any; the whole report counts as one.
+SHOWING = (
+    "report/build/{study}.*",
+    "report/build/{study}-site/*",
+    "report/build/site/{study}.html",
+)
 
 
 def targets(studies: list[str]) -> list[str]:
@@ -57,14 +61,16 @@ def run_folder(project: Project, configuration: str) -> Path:
 
 
 def reason(file: Compared, timed: set[str]) -> str:
-    """Why a file may differ; empty if it may not."""
+    """Why a file may differ; empty if it may not, or differs in more than numbers."""
+    if not file.words:
+        return ""
     listed = EXCEPTIONS | {
         pattern.format(study=study): f"prints {SECONDS}"
         for study in (*timed, *["report"] * bool(timed))
         for pattern in SHOWING
     }
     if timed:
-        listed["report/build/site/*"] = f"prints {SECONDS}"
+        listed["report/build/site/values.html"] = f"prints {SECONDS}"
     return next((why for pattern, why in listed.items() if fnmatch(file.name, pattern)), "")
 
 
@@ -112,7 +118,15 @@ def judge(
 
     Returns whether nothing differs but what is excepted, and every verdict is the same.
     """
-    timed = {study for study in studies if (one / f"data/results/{study}/timings.csv").exists()}
+    timed = {
+        study
+        for study in studies
+        if any(
+            file.match(name)
+            for file in (one / f"data/results/{study}").iterdir()
+            for name in EXCEPTIONS
+        )
+    }
     found = list(compared(one, other))
     set_aside(one, other, found, DIFFERING)
     names = " ".join(studies)
