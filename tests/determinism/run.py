@@ -93,10 +93,12 @@ def summary(found: list[Compared], timed: set[str]) -> list[dict[str, object]]:
 
 
 def kept(path: Path, columns: Sequence[str], studies: str, rows: list[dict[str, object]]) -> None:
-    """Exchange the rows of these studies in a tracked table."""
+    """Exchange the rows of these studies, and of any part of them, in a tracked table."""
     columns = ["studies", *columns]
-    old = pd.read_csv(path, dtype=str, keep_default_na=False) if path.exists() else None
-    others = pd.DataFrame(columns=columns) if old is None else old[old["studies"] != studies]
+    others = pd.DataFrame(columns=columns)
+    if path.exists():
+        old = pd.read_csv(path, dtype=str, keep_default_na=False)
+        others = old[[not set(words.split()) <= set(studies.split()) for words in old["studies"]]]
     new = pd.DataFrame([{"studies": studies} | row for row in rows], columns=columns)
     pd.concat([others, new]).to_csv(path, index=False, lineterminator="\n")
 
