@@ -110,12 +110,14 @@ class SlsqpSolver:
     """
 
     def __init__(self, program: NonlinearProgram, *, expand: bool = False):
-        x = program.variables
+        x, jacobian = program.variables, program.jacobian
+        if jacobian is None:
+            jacobian = ca.jacobian(program.constraints, x)
         functions: tuple[ca.Function, ...] = (
             ca.Function("f", [x], [program.objective]),
             ca.Function("df", [x], [ca.gradient(program.objective, x)]),
             ca.Function("g", [x], [program.constraints]),
-            ca.Function("dg", [x], [ca.jacobian(program.constraints, x)]),
+            ca.Function("dg", [x], [jacobian]),
         )
         if expand:
             functions = tuple(function.expand() for function in functions)
