@@ -140,6 +140,20 @@ def reproduction(project):
     return build(project, ".", CONFIG)
 
 
+def test_the_chapter_on_the_pipeline_is_typeset_so_that_it_can_be_read_aloud(project, reproduction):
+    """Only the whole report has it; PDF/UA refuses what has no alternative text."""
+    template = project / "report/report.typ"
+    source = template.read_text()
+    assert "content.documents.len() > 1" in source
+    template.write_text(source.replace("content.documents.len() > 1", "true"))
+    try:
+        compile_report(reproduction / "content.json", project, reproduction / "whole.pdf")
+    finally:
+        template.write_text(source)
+    whole, alone = (reproduction / name for name in ("whole.pdf", "report.pdf"))
+    assert whole.stat().st_size > alone.stat().st_size
+
+
 class Page(HTMLParser):
     """Text and links of a page."""
 
