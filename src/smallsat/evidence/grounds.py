@@ -1,7 +1,7 @@
 """What the proofs of errata and the predicates of claims rest on."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Generic
 
@@ -26,16 +26,23 @@ class Grounds(Generic[Section]):
         The printed numbers of its document.
     captions
         Captions of the document's tables and figures, by their names such as ``Figure A.3``.
+    read
+        Tables that were read already, by their paths: dozens of claims rest on the same few.
     """
 
     section: Section
     results: Path
     ledger: Ledger
     captions: Mapping[str, str]
+    read: dict[Path, pd.DataFrame] = field(default_factory=dict, repr=False, compare=False)
 
     def table(self, name: str) -> pd.DataFrame:
         """A table of the results by its file's name; errors as from `read_table`."""
-        return read_table(self.results / name)
+        path = self.results / name
+        if path not in self.read:
+            self.read[path] = read_table(path)
+        # What is written into it is the caller's own.
+        return self.read[path].copy(deep=False)
 
     def rows(self, name: str, **columns: object) -> pd.DataFrame:
         """Rows of a table of the results that have these values in their columns.

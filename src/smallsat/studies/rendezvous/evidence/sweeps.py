@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
+from scipy import stats
 
 from smallsat.evidence.grounds import Grounds
 from smallsat.statistics.bootstrap import Bootstrap, Effect, Statistic, effect
@@ -156,6 +157,7 @@ def group_difference(
 
     def statistic(drawn: np.ndarray) -> np.ndarray:
         a, b = (np.where(group[drawn], values[drawn], np.nan) for group in (first, second))
-        return np.nanquantile(b, level, axis=1) - np.nanquantile(a, level, axis=1)
+        low, high = (stats.quantile(group, level, axis=1, nan_policy="omit") for group in (a, b))
+        return high - low
 
     return statistic
