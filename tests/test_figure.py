@@ -1,14 +1,18 @@
 """Figures: equal data give equal bytes in all formats, and the data drawn lie beside them."""
 
+import re
 import warnings
+import zlib
+from io import BytesIO
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import pytest
+from fontTools.ttLib import TTFont
 
 from smallsat.drawing.figure import FORMATS, save_figure
-from smallsat.drawing.style import apply_style
+from smallsat.drawing.style import SETTING, apply_style
 from smallsat.results import read_table
 
 
@@ -45,6 +49,20 @@ def test_fonts_travel_with_the_file(tmp_path):
     draw(tmp_path / "one")
     assert "<text" not in (tmp_path / "one.svg").read_text()
     assert b"/FontFile2" in (tmp_path / "one.pdf").read_bytes()
+
+
+def test_an_embedded_font_has_no_tables_for_setting_text(tmp_path):
+    """Its letters stand in the PDF already; to cut these tables takes longer than to draw."""
+    draw(tmp_path / "one")
+    streams = re.findall(
+        rb"stream\r?\n(.*?)\r?\nendstream", (tmp_path / "one.pdf").read_bytes(), re.S
+    )
+    data = [zlib.decompress(stream) for stream in streams if stream[:1] == b"\x78"]
+    fonts = [TTFont(BytesIO(one)) for one in data if one.startswith(b"\x00\x01\x00\x00")]
+    assert fonts
+    for font in fonts:
+        assert "glyf" in font
+        assert not {*SETTING} & {*font.keys()}
 
 
 def test_places_do_not_hang_on_the_solver(tmp_path):
