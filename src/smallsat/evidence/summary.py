@@ -40,10 +40,8 @@ def failures(verdicts: pd.DataFrame) -> pd.DataFrame:
     return verdicts[~verdicts["verdict"].isin([v for v in (*VERDICTS, PENDING) if v != "mismatch"])]
 
 
-def summary_text(
-    verdicts: pd.DataFrame, kinds: pd.Series, not_converged: pd.DataFrame, report: Path
-) -> str:
-    """The few lines that end a build: counts, failures, unsolved cases, where the report lies."""
+def summary_text(verdicts: pd.DataFrame, kinds: pd.Series, not_converged: pd.DataFrame) -> str:
+    """The few lines that end a build: counts, failures, unsolved cases."""
     counts = verdict_counts(verdicts, kinds)
     lines = []
     for kind, title in KIND_TITLES.items():
@@ -69,8 +67,6 @@ def summary_text(
         lines.append(
             f"{len(not_converged)} cases did not converge; they are left out of the figures."
         )
-    if report.exists():
-        lines.append(f"report: {report} and {report.parent / 'site/index.html'}")
     return "\n".join(lines)
 
 
@@ -96,8 +92,7 @@ def main(arguments: argparse.Namespace) -> None:
     """Print the counts, what is wrong and what did not converge."""
     verdicts = read_table(arguments.verdicts, TEXT_COLUMNS)
     results = arguments.verdicts.parent
-    report = results.parents[1] / "report/build/report.pdf"
     kinds = value_kinds(arguments.published)
-    print(summary_text(verdicts, kinds, read_not_converged(results), report))
+    print(summary_text(verdicts, kinds, read_not_converged(results)))
     if len(failures(verdicts)) and not arguments.what_if:
         raise SystemExit(1)
