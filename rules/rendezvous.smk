@@ -115,6 +115,9 @@ for number in ENSEMBLE:
         part=number,
         makes=[f"ensemble/{number}/{table}" for table in MEMBER_TABLES],
         accepted=["sets.csv"],
+        # The first one starts the build: in a fresh checkout it compiles what every other job that
+        # flies then loads, and two that start together would both compile all of it.
+        priority=200 if number == ENSEMBLE[0] else 0,
     )
 step(
     "rendezvous",
