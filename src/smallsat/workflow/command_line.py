@@ -181,6 +181,8 @@ def main() -> None:
     cli.get_argument_parser = unlimited(cli.get_argument_parser)
     Workflow.execute = careful(Workflow.execute)
     FilePersistence.finished = noting(FilePersistence.finished)
+    # Parameters of rules are text here; Snakemake would import pandas to see that none is a table.
+    FilePersistence._serialize_param_pandas = FilePersistence._serialize_param_builtin
     os.environ.update(announced())
     cli.main()
 
