@@ -7,7 +7,7 @@ import signal
 import subprocess
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from random import Random
@@ -80,10 +80,12 @@ def interrupt(build: Build, random: Random) -> str:
 
 def fill_disk(build: Build, random: Random) -> str:
     """Leave not a byte on the disk of the run, which is small."""
-    free = os.statvfs(build.folder)
     file = build.folder / "filler"
     with file.open("wb") as filler:
-        os.posix_fallocate(filler.fileno(), 0, free.f_bavail * free.f_frsize)
+        while free := shutil.disk_usage(build.folder).free:
+            # The build writes meanwhile, and may take some of it first.
+            with suppress(OSError):
+                os.posix_fallocate(filler.fileno(), 0, file.stat().st_size + free)
     return f"{file.stat().st_size >> 20} MiB were free"
 
 
