@@ -157,7 +157,7 @@ def group_difference(
 
     def statistic(drawn: np.ndarray) -> np.ndarray:
         a, b = (np.where(group[drawn], values[drawn], np.nan) for group in (first, second))
-        low, high = (stats.quantile(group, level, axis=1, nan_policy="omit") for group in (a, b))
-        return high - low
+        of_a, of_b = (stats.quantile(drew, level, axis=1, nan_policy="omit") for drew in (a, b))
+        return of_b - of_a
 
     return statistic
