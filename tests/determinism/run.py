@@ -14,7 +14,7 @@ from collections import Counter
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
-from dataclasses import asdict, fields, replace
+from dataclasses import asdict, dataclass, fields, replace
 from fnmatch import fnmatch
 from pathlib import Path
 
@@ -32,6 +32,8 @@ ROOT = Path(__file__).parents[2]
 TABLES = ROOT / "data/accepted/pipeline"
 # What two builds do not have in common, to be looked at.
 DIFFERING = ROOT / "logs/determinism"
+# A series without a configuration.
+FULL = "the documents' own"
 COLUMNS = ("kind", "files", "identical", "excepted", "reason")
 # What may differ, in numbers alone, and why.
 SECONDS = "measured seconds"
@@ -92,14 +94,27 @@ def summary(found: list[Compared], timed: set[str]) -> list[dict[str, object]]:
     return rows
 
 
-def kept(path: Path, columns: Sequence[str], studies: str, rows: list[dict[str, object]]) -> None:
-    """Exchange the rows of these studies, and of any part of them, in a tracked table."""
-    columns = ["studies", *columns]
-    others = pd.DataFrame(columns=columns)
+@dataclass(frozen=True)
+class Series:
+    """Builds that are compared: of which configuration, and which studies by a space."""
+
+    configuration: str
+    studies: str
+
+    def covers(self, other: "Series") -> bool:
+        """Whether the other is this, or a part of it."""
+        same = self.configuration == other.configuration
+        return same and set(other.studies.split()) <= set(self.studies.split())
+
+
+def kept(path: Path, columns: Sequence[str], series: Series, rows: list[dict[str, object]]) -> None:
+    """Exchange the rows of a series, and of any part of it, in a tracked table."""
+    key = [field.name for field in fields(Series)]
+    others = pd.DataFrame(columns=[*key, *columns])
     if path.exists():
         old = pd.read_csv(path, dtype=str, keep_default_na=False)
-        others = old[[not set(words.split()) <= set(studies.split()) for words in old["studies"]]]
-    new = pd.DataFrame([{"studies": studies} | row for row in rows], columns=columns)
+        others = old[[not series.covers(Series(*row)) for row in old[key].to_numpy()]]
+    new = pd.DataFrame([asdict(series) | row for row in rows], columns=others.columns)
     pd.concat([others, new]).to_csv(path, index=False, lineterminator="\n")
 
 
@@ -114,12 +129,13 @@ def set_aside(one: Path, other: Path, found: list[Compared], folder: Path) -> No
 
 
 def judge(
-    one: Path, other: Path, third: Path, studies: list[str], facts: dict[str, str], kernel: str
+    one: Path, other: Path, third: Path, series: Series, facts: dict[str, str], kernel: str
 ) -> bool:
     """Compare two varied builds, and one on another kernel; keep the tables, print what was found.
 
     Returns whether nothing differs but what is excepted, and every verdict is the same.
     """
+    studies = series.studies.split()
     timed = {
         study
         for study in studies
@@ -131,7 +147,6 @@ def judge(
     }
     found = list(compared(one, other))
     set_aside(one, other, found, DIFFERING)
-    names = " ".join(studies)
     rows = summary(found, timed)
     unexcused = [file.name for file in found if not file.same and not reason(file, timed)]
     moved: list[Moved] = [
@@ -144,11 +159,11 @@ def judge(
     before = {key: value for study in studies for key, value in outcomes(one, study).items()}
     after = {key: value for study in studies for key, value in outcomes(third, study).items()}
     flipped = sorted(key for key in before | after if before.get(key) != after.get(key))
-    kept(TABLES / "determinism.csv", COLUMNS, names, rows)
+    kept(TABLES / "determinism.csv", COLUMNS, series, rows)
     kept(
         TABLES / "determinism-kernel.csv",
         ["kernel", *(field.name for field in fields(Moved))],
-        names,
+        series,
         [
             {"kernel": kernel} | asdict(move) | {"relative": f"{move.relative:.1e}"}
             for move in moved
@@ -163,7 +178,7 @@ def judge(
     kept(
         TABLES / "determinism-provenance.csv",
         ["item", "value"],
-        names,
+        series,
         [{"item": item, "value": value} for item, value in facts.items()],
     )
     print(pd.DataFrame(rows).to_string(index=False))
@@ -191,9 +206,9 @@ def main() -> None:
         sys.exit(f"determinism: --kernel {KERNEL} is that of every build; name another")
     kernel = replace(ONE, path="kernel", cores=2, kernel=arguments.kernel)
     facts = provenance("make determinism", "snakemake", "numpy", "typst") | {
-        "configuration": arguments.configfile or "the documents' own",
         "targets": " ".join(targets(arguments.studies)),
     }
+    series = Series(arguments.configfile or FULL, " ".join(studies))
     with ExitStack() as stack:
         place = stack.enter_context(
             tempfile.TemporaryDirectory(dir=arguments.folder, prefix="determinism-")
@@ -206,7 +221,7 @@ def main() -> None:
         with ThreadPoolExecutor() as pool:
             list(pool.map(build, projects, all_three, [words] * 3))
         runs = [run_folder(project, arguments.configfile) for project in projects]
-        good = judge(*runs, studies, facts, arguments.kernel)
+        good = judge(*runs, series, facts, arguments.kernel)
     raise SystemExit(not good)
 
 
