@@ -12,6 +12,7 @@ from smallsat.studies.rendezvous.model.truth import advance, pair_from_relative,
 from smallsat.studies.rendezvous.monte_carlo.cases import base, cases, in_phase
 from smallsat.studies.rendezvous.monte_carlo.initial_states import states_table
 from smallsat.studies.rendezvous.monte_carlo.runs import simulate_cases
+from smallsat.studies.rendezvous.simulation import pool
 from smallsat.studies.rendezvous.simulation.closed_loop import simulate
 from smallsat.studies.rendezvous.simulation.disturbances import disturbed_motion, nonlinear_motion
 from smallsat.studies.rendezvous.simulation.motion import BURNS, COMMANDED
@@ -74,6 +75,19 @@ def test_a_manoeuvre_does_not_depend_on_its_batch(section, starts):
         alone = simulate([law], starts[m : m + 1], (0, 1), motion, [stream(3, m)])
         np.testing.assert_array_equal(alone.ends[0], together.ends[m])
         np.testing.assert_array_equal(alone.delta_v[0], together.delta_v[m])
+
+
+def test_a_manoeuvre_does_not_depend_on_how_its_numbers_come(section, starts, monkeypatch):
+    """A few at a time, or all at once: the same stream, so the same to the last bit."""
+    law = base(section)
+    motion = disturbed_motion(section, law)
+    found = {}
+    for numbers in (19, 1024):
+        monkeypatch.setattr(pool, "NUMBERS", numbers)
+        found[numbers] = simulate([law], starts, (0, 1), motion, streams(len(starts)))
+    assert 8 * found[19].steps.sum(axis=1).min() > 3 * 19
+    np.testing.assert_array_equal(found[19].ends, found[1024].ends)
+    np.testing.assert_array_equal(found[19].delta_v, found[1024].delta_v)
 
 
 def test_passages_are_what_manoeuvres_with_that_distance_and_limit_do(section, starts):

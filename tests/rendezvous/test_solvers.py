@@ -5,14 +5,31 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from smallsat.dynamics.lanes import LANES
+from smallsat.optimal_control.riccati_interior_point import (
+    EXCESS,
+    SOLVED,
+    WEIGHT,
+    Program,
+    solve,
+    solve_together,
+    workspace,
+)
 from smallsat.optimal_control.riccati_interior_point import ITERATION_LIMIT as OUT_OF_STEPS
-from smallsat.optimal_control.riccati_interior_point import SOLVED, Program, solve, workspace
 from smallsat.studies.rendezvous.guidance import law as guidance
-from smallsat.studies.rendezvous.guidance.controller import ITERATION_LIMIT, SOFTENED, TOLERANCE
+from smallsat.studies.rendezvous.guidance.controller import (
+    ITERATION_LIMIT,
+    SOFTENED,
+    TOLERANCE,
+    together_for,
+    write_lane,
+)
 from smallsat.studies.rendezvous.guidance.phase_programs import (
     BOUNDS,
     PLANES,
     empty_program,
+    shape,
+    with_bounds,
     write_program,
 )
 from smallsat.studies.rendezvous.methods import qp_solvers, solver_comparison
@@ -159,3 +176,59 @@ def test_answers_do_not_depend_on_what_was_solved_before(programs):
         assert np.array_equal(shared.controls[: sample.stages], alone.controls[: sample.stages]), (
             sample.kind
         )
+
+
+@pytest.mark.parametrize("limit", [ITERATION_LIMIT, 7])
+def test_programs_in_lanes_end_as_alone(law, limit):
+    """Equal to the last bit for starts near and far, one that no step keeps in, and no number."""
+    record = guidance.settings([law])[0]
+    random = np.random.default_rng(5)
+    for phase, scale in enumerate((1000.0, 100.0, 3.0)):
+        stages = law.horizons[phase]
+        states = scale * random.normal(size=(LANES, 6)) * np.r_[np.ones(3), np.full(3, 1e-3)]
+        states[1], states[4], states[6] = 1e-3 * states[1], np.nan, 30.0 * states[6]
+        together = together_for(max(law.horizons))
+        for lane, state in enumerate(states):
+            bounds, _ = write_lane(record, phase, state, 0.0, together, lane)
+        rows = solve_together(
+            with_bounds(together.programs, bounds), stages, together.scaled, together.work,
+            TOLERANCE, limit, together.ends,
+        )  # fmt: skip
+        work = together.work
+        assert len(set(together.ends[1])) > 1
+        for lane, state in enumerate(states):
+            program, _ = write_program(record, phase, state, 0.0, empty_program(stages))
+            alone = workspace(stages, PLANES, BOUNDS)
+            scaled = state / record["scales"][phase]
+            solution = solve(program, stages, scaled, alone, TOLERANCE, limit)
+            assert (solution.status, solution.iterations) == tuple(together.ends[:, lane])
+            for found, expected in (
+                (work.controls[:stages, :, lane], solution.controls),
+                (work.rows[EXCESS, :rows, lane], solution.excesses),
+                (work.rows[WEIGHT, :rows, lane], solution.weights),
+            ):
+                assert np.array_equal(found, expected, equal_nan=True)
+
+
+def test_programs_of_one_shape_have_their_rows_in_common(law, laws):
+    """What lanes share is the same for equal keys, and the keys tell apart what differs."""
+    every = [
+        *laws.values(),
+        law.with_(horizons=(20, 15, 12)),
+        law.with_(penalties=(0.0, *law.penalties[1:])),
+        law.with_(rotation_rate=1e-3),
+    ]
+    state, kinds = np.array([10.0, -200.0, 5.0, 0.0, 0.1, 0.0]), {}
+    for record in guidance.settings(every):
+        for phase in range(3):
+            empty = empty_program(max(law.horizons))
+            program, _ = write_program(record, phase, state, 0.0, empty)
+            shared = (
+                int(record["horizons"][phase]),
+                tuple(program.plane_count[1 : record["horizons"][phase] + 1]),
+                tuple(program.components),
+                tuple(program.signs),
+                bool(program.control_norm[0] > 0.0),
+            )
+            assert kinds.setdefault(shape(record, phase), shared) == shared
+    assert len(set(kinds.values())) == len(kinds) > 4

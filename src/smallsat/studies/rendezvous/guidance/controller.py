@@ -10,13 +10,18 @@ from typing import NamedTuple
 import numpy as np
 
 from smallsat.dynamics.compiled import compiled
+from smallsat.dynamics.lanes import LANES
 from smallsat.optimal_control.riccati_interior_point import (
     CONTROLS,
+    EXCESS,
     SOLVED,
     STATES,
+    WEIGHT,
     Program,
+    Solution,
     Workspace,
     solve,
+    solve_together,
     workspace,
 )
 from smallsat.studies.rendezvous.guidance.law import DISTANCE, DOCKING, RENDEZVOUS
@@ -24,6 +29,8 @@ from smallsat.studies.rendezvous.guidance.phase_programs import (
     BOUNDS,
     PLANES,
     empty_program,
+    lane_of,
+    with_bounds,
     write_program,
 )
 from smallsat.studies.rendezvous.model.geometry import in_cone, rotated
@@ -53,6 +60,23 @@ class Memory(NamedTuple):
     scaled: np.ndarray
     plan: np.ndarray
     remaining: np.ndarray
+
+
+class Together(NamedTuple):
+    """What is written on to solve the programs of several states at once.
+
+    Attributes
+    ----------
+    programs, work, scaled
+        As in `Memory`, with a last axis more, of the lanes.
+    ends
+        Status and iterations of each, (2, LANES).
+    """
+
+    programs: Program
+    work: Workspace
+    scaled: np.ndarray
+    ends: np.ndarray
 
 
 class Control(NamedTuple):
@@ -86,6 +110,23 @@ def memory_for(stages):
     )
 
 
+def together_for(stages: int) -> Together:
+    """Return a `Together` for horizons of up to that many stages."""
+
+    def widened(arrays):
+        return type(arrays)(
+            *(np.zeros((*a.shape, LANES)) if a.dtype == float else a for a in arrays)
+        )
+
+    one = empty_program(stages)
+    return Together(
+        widened(one)._replace(signs=one.signs),
+        widened(workspace(stages, PLANES, BOUNDS)),
+        np.zeros((STATES, LANES)),
+        np.zeros((2, LANES)),
+    )
+
+
 @compiled
 def next_control(law, phase, state, time, memory, command):
     """Fill `command` with the guidance law's velocity change (3,), m/s, for a state.
@@ -111,7 +152,55 @@ def next_control(law, phase, state, time, memory, command):
     for k in range(STATES):
         memory.scaled[k] = state[k] / law.scales[phase, k]
     solution = solve(program, stages, memory.scaled, memory.work, TOLERANCE, ITERATION_LIMIT)
-    softened = 0
+    softened = _take(law, phase, solution, memory.plan, memory.remaining, command)
+    return Control(solution.status, solution.iterations, softened, outside)
+
+
+@compiled
+def write_lane(law, phase, state, time, together, lane):
+    """Write the program of a state into a lane; arguments as of `next_control`.
+
+    Returns
+    -------
+    int, bool
+        Number of its rows on components, and whether a constraint is violated at the start.
+    """
+    program, outside = write_program(law, phase, state, time, lane_of(together.programs, lane))
+    for k in range(STATES):
+        together.scaled[k, lane] = state[k] / law.scales[phase, k]
+    return len(program.components), outside
+
+
+@compiled
+def solve_lanes(stages, bounds, together):
+    """Solve all lanes; return their number of rows on states."""
+    return solve_together(
+        with_bounds(together.programs, bounds), stages, together.scaled, together.work, TOLERANCE,
+        ITERATION_LIMIT, together.ends,
+    )  # fmt: skip
+
+
+@compiled
+def control_of_lane(law, phase, together, lane, rows, outside, plan, remaining, command):
+    """Fill `command` from what was found in a lane; as `next_control` would for its state alone."""
+    solution = Solution(
+        int(together.ends[0, lane]),
+        int(together.ends[1, lane]),
+        together.work.controls[: law.horizons[phase], :, lane],
+        together.work.rows[WEIGHT, :rows, lane],
+        together.work.rows[EXCESS, :rows, lane],
+    )
+    softened = _take(law, phase, solution, plan, remaining, command)
+    return Control(solution.status, solution.iterations, softened, outside)
+
+
+@compiled
+def _take(law, phase, solution, plan, remaining, command):
+    """Keep a solution as the plan, take the plan's control for now; return the rows that gave way.
+
+    Where the program was not solved, the plan is the one before.
+    """
+    stages, softened = law.horizons[phase], 0
     if solution.status == SOLVED:
         for r in range(len(solution.weights)):
             hard = solution.weights[r] == law.hard_weights[phase]
@@ -119,13 +208,13 @@ def next_control(law, phase, state, time, memory, command):
                 softened += 1
         for i in range(stages):
             for k in range(CONTROLS):
-                memory.plan[i, k] = law.control_bounds[phase] * solution.controls[i, k]
-        memory.remaining[0] = stages
-    left = memory.remaining[0]
+                plan[i, k] = law.control_bounds[phase] * solution.controls[i, k]
+        remaining[0] = stages
+    left = remaining[0]
     for k in range(CONTROLS):
-        command[k] = memory.plan[stages - left, k] if left > 0 else 0.0
-    memory.remaining[0] = max(left - 1, 0)
-    return Control(solution.status, solution.iterations, softened, outside)
+        command[k] = plan[stages - left, k] if left > 0 else 0.0
+    remaining[0] = max(left - 1, 0)
+    return softened
 
 
 @compiled

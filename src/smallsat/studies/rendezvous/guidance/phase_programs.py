@@ -74,6 +74,35 @@ def with_bounds(program, count):
 
 
 @compiled
+def lane_of(programs, lane):
+    """Return one of several programs whose arrays of floats have a last axis more, as a view."""
+    return Program(
+        programs.transitions[..., lane],
+        programs.state_hessian[..., lane],
+        programs.terminal_hessian[..., lane],
+        programs.state_gradient[..., lane],
+        programs.control_hessian[..., lane],
+        programs.control_norm[..., lane],
+        programs.plane_count,
+        programs.normals[..., lane],
+        programs.offsets[..., lane],
+        programs.plane_weights[..., lane],
+        programs.components,
+        programs.signs,
+        programs.bounds[..., lane],
+        programs.bound_weights[..., lane],
+    )
+
+
+def shape(law, phase):
+    """What programs of laws must have in common to be solved together: a key, from `SETTINGS`."""
+    if phase != RENDEZVOUS:
+        return phase, int(law["horizons"][phase])
+    one_norm, cone = law["norm_control_weights"][0] > 0.0, law["penalties"][0] > 0.0
+    return phase, int(law["horizons"][phase]), bool(one_norm), bool(cone)
+
+
+@compiled
 def reference(law, distance, angle, out):
     """Fill `out`, (6,): a point on the turned axis, m, and, if the law wants it, its velocity."""
     axis = np.empty(3)

@@ -12,16 +12,21 @@ from typing import NamedTuple
 import numpy as np
 
 from smallsat.dynamics.compiled import compiled
+from smallsat.dynamics.lanes import LANES
 from smallsat.optimal_control.riccati_interior_point import SOLVED
 from smallsat.studies.rendezvous.guidance.controller import (
-    memory_for,
-    next_control,
+    control_of_lane,
     phase_ended,
     port_distance,
+    solve_lanes,
+    together_for,
+    write_lane,
 )
 from smallsat.studies.rendezvous.guidance.law import DOCKING, RENDEZVOUS, Law, settings
+from smallsat.studies.rendezvous.guidance.phase_programs import shape
 from smallsat.studies.rendezvous.guidance.tube import hold
 from smallsat.studies.rendezvous.simulation.motion import (
+    NUMBERS_A_STEP,
     NonlinearMotion,
     apply_transition,
     begin,
@@ -33,6 +38,14 @@ from smallsat.studies.rendezvous.simulation.motion import (
     next_estimate,
     push,
     relative,
+)
+from smallsat.studies.rendezvous.simulation.pool import (
+    BEGINS,
+    DRY,
+    ENDED,
+    IDLE,
+    pool_for,
+    serve,
 )
 
 # How the velocity changes of a manoeuvre are added up, by the names of `delta_v.READINGS`: for
@@ -189,11 +202,16 @@ def simulate(
     starts = np.ascontiguousarray(np.atleast_2d(starts), dtype=float)
     most = int((settings_of["time_limit"] / settings_of["sample_times"].min(axis=1)).max()) + 1
     found = _nothing_yet(len(starts), most if with_steps else 0, distances, limits, reading)
-    memory = memory_for(int(settings_of["horizons"].max()))
-    for m, start in enumerate(starts):
-        law = settings_of[m % len(laws)]
-        generator = None if generators is None else generators[m]
-        _simulate(law, start, phases, motion, generator, memory, m, found)
+    keys = [[shape(law, phase) for phase in range(3)] for law in settings_of]
+    numbers = {key: k for k, key in enumerate(dict.fromkeys(key for row in keys for key in row))}
+    shapes = np.array([[numbers[key] for key in row] for row in keys])
+    stages = int(settings_of["horizons"].max())
+    together = together_for(stages)
+    pool = pool_for(len(starts), len(numbers), stages, motion is not None)
+    begun = serve(pool, 0, len(starts), len(laws), generators)
+    while (pool.waits != IDLE).any():
+        _fly(settings_of, shapes, starts, phases, motion, together, pool, found)
+        begun = serve(pool, begun, len(starts), len(laws), generators)
     return found
 
 
@@ -247,62 +265,165 @@ def _nothing_yet(
 
 
 @compiled
-def _simulate(law, start, phases, motion, generator, memory, m, found):
-    """Simulate manoeuvre number `m` and fill its rows of `found`.
+def _fly(laws, shapes, starts, phases, motion, together, pool, found):
+    """Fly the manoeuvres of a pool until one ends or its numbers do; fill their rows of `found`.
+
+    Parameters
+    ----------
+    laws, shapes
+        `SETTINGS` records, and the number of each law's shape of program in each phase.
+    together
+        Memory for the programs that are solved together.
+    """
+    for slot in range(len(pool.waits)):
+        if pool.waits[slot] == BEGINS:
+            _begin(laws[pool.law[slot]], starts, phases, motion, pool, slot)
+        if pool.waits[slot] == BEGINS or pool.waits[slot] == DRY:
+            _go_on(laws, shapes, motion, pool, slot, found)
+    queue = np.empty(LANES, np.int64)
+    while not _wants(pool):
+        length = _next_queue(pool, shapes.max() + 1, queue)
+        if length == 0:
+            return
+        bounds = 0
+        for lane in range(LANES):
+            # lanes that are left over solve the last program once more
+            slot = queue[min(lane, length - 1)]
+            bounds = _write(laws[pool.law[slot]], together, pool, slot, lane)
+        first = queue[0]
+        stages = laws[pool.law[first]].horizons[pool.phase[first]]
+        rows = solve_lanes(stages, bounds, together)
+        for lane in range(length):
+            slot = queue[lane]
+            law = laws[pool.law[slot]]
+            _step(law, motion, together, lane, rows, pool, slot, found)
+            if pool.phase[slot] > phases[1]:
+                found.docked[pool.manoeuvre[slot]] = True
+                pool.waits[slot] = ENDED
+            else:
+                _go_on(laws, shapes, motion, pool, slot, found)
+
+
+@compiled
+def _wants(pool):
+    """Whether a slot waits for what `serve` gives."""
+    for slot in range(len(pool.waits)):
+        if pool.waits[slot] == ENDED or pool.waits[slot] == DRY:
+            return True
+    return False
+
+
+@compiled
+def _next_queue(pool, shapes, queue):
+    """Fill in slots that wait for programs of the shape that most wait for; return how many."""
+    slots = len(pool.waits)
+    waiting = np.zeros(shapes, np.int64)
+    for slot in range(slots):
+        if pool.waits[slot] >= 0:
+            waiting[pool.waits[slot]] += 1
+    most, length, turn = np.argmax(waiting), 0, pool.turn[0]
+    for k in range(slots):
+        slot = (turn + k) % slots
+        if pool.waits[slot] == most and length < len(queue):
+            queue[length] = slot
+            length += 1
+            pool.turn[0] = slot + 1
+    return length
+
+
+@compiled
+def _begin(law, starts, phases, motion, pool, slot):
+    """Put a manoeuvre into a slot."""
+    start = starts[pool.manoeuvre[slot]]
+    numbers, drawn = pool.numbers[slot], pool.drawn[slot]
+    pool.errors[slot, 0], pool.errors[slot, 1] = first_error(motion, numbers, drawn)
+    pair = begin(motion, start)
+    for k in range(2):
+        copy(pair[k], pool.pairs[slot, k])
+    first_estimate(
+        motion, start, relative(motion, pair), numbers, drawn, pool.estimates[slot],
+        pool.covariances[slot],
+    )  # fmt: skip
+    pool.time[slot], pool.step[slot], pool.spent[slot] = 0.0, 0, 0.0
+    _enter(pool, slot, phases[0])
+
+
+@compiled
+def _enter(pool, slot, phase):
+    """Begin a phase: without a plan, outside any tube."""
+    pool.phase[slot], pool.remaining[slot, 0], pool.within[slot] = phase, 0, False
+
+
+@compiled
+def _go_on(laws, shapes, motion, pool, slot, found):
+    """Let a slot wait for its next program, if there is time and it has numbers left."""
+    law, phase = laws[pool.law[slot]], pool.phase[slot]
+    if motion is not None and pool.drawn[slot, 0] + NUMBERS_A_STEP > pool.numbers.shape[1]:
+        pool.waits[slot] = DRY
+        return
+    end = pool.time[slot] + law.sample_times[phase]
+    _pass_limits(found.passages, pool.manoeuvre[slot], end, pool.spent[slot])
+    pool.waits[slot] = ENDED if end > law.time_limit else shapes[pool.law[slot], phase]
+
+
+@compiled
+def _write(law, together, pool, slot, lane):
+    """Write a slot's program into a lane; return its number of rows on components."""
+    phase, expected, nominal = pool.phase[slot], pool.expected[slot], pool.nominals[slot]
+    copy(pool.estimates[slot], expected)
+    apply_transition(law.predictions_before[phase], expected)
+    if not pool.within[slot]:
+        copy(expected, nominal)
+    bounds, pool.outside[slot] = write_lane(law, phase, nominal, pool.time[slot], together, lane)
+    return bounds
+
+
+@compiled
+def _step(law, motion, together, lane, rows, pool, slot, found):
+    """Fly a step with the control that a lane has found.
 
     With nonlinear motion each step draws eight normal numbers whatever is disturbed, so that
     variants have them in common.
     """
-    pair = begin(motion, start)
-    estimate, covariance, expected = np.empty(6), np.empty((6, 6)), np.empty(6)
-    nominal = np.empty(6)
+    m, phase, time = pool.manoeuvre[slot], pool.phase[slot], pool.time[slot]
+    pair, estimate = pool.pairs[slot], pool.estimates[slot]
+    numbers, drawn = pool.numbers[slot], pool.drawn[slot]
     command, applied = np.zeros(3), np.zeros(3)
     burn, on_times, idle = np.zeros(3), np.zeros(3), np.zeros(3)
-    w, v = first_error(motion, generator)
+    duration, delay = law.sample_times[phase], law.delays[phase]
     state = relative(motion, pair)
-    first_estimate(motion, start, state, generator, estimate, covariance)
-    time, step, spent = 0.0, 0, 0.0
-    for phase in range(phases[0], phases[1] + 1):
-        duration, delay = law.sample_times[phase], law.delays[phase]
-        memory.remaining[0] = 0
-        within = False
-        while True:
-            _pass_limits(found.passages, m, time + duration, spent)
-            if time + duration > law.time_limit:
-                return
-            copy(estimate, expected)
-            apply_transition(law.predictions_before[phase], expected)
-            if not within:
-                copy(expected, nominal)
-            control = next_control(law, phase, nominal, time, memory, command)
-            if law.has_tube and phase == DOCKING:
-                hold(law, expected, nominal, command)
-                within = True
-            if phase == RENDEZVOUS:
-                found.closest[m] = min(found.closest[m], np.linalg.norm(state[:3]))
-            if found.records.time.shape[1] > 0:
-                _record(found.records, m, step, time, phase, state, command, control)
-            coast(motion, pair, law.drifts_before[phase], time, delay, burn, idle)
-            push(law, motion, pair, command, w, duration - delay, burn, on_times, applied)
-            coast(
-                motion, pair, law.drifts_after[phase], time + delay, duration - delay, burn,
-                on_times,
-            )  # fmt: skip
-            time += duration
-            step += 1
-            w, v = next_error(motion, phase, w, v, generator)
-            state = relative(motion, pair)
-            next_estimate(motion, phase, duration, command, state, generator, estimate, covariance)
-            _add_up(found, m, phase, applied, control)
-            spent = _spent(found, m)
-            found.end_times[m, phase] = time
-            copy(state, found.ends[m, phase])
-            if phase == DOCKING:
-                distance = port_distance(law, estimate, time)
-                _pass_distances(found.passages, m, distance, time, spent)
-            if phase_ended(law, phase, estimate, time):
-                break
-    found.docked[m] = True
+    control = control_of_lane(
+        law, phase, together, lane, rows, pool.outside[slot], pool.plans[slot],
+        pool.remaining[slot], command,
+    )  # fmt: skip
+    if law.has_tube and phase == DOCKING:
+        hold(law, pool.expected[slot], pool.nominals[slot], command)
+        pool.within[slot] = True
+    if phase == RENDEZVOUS:
+        found.closest[m] = min(found.closest[m], np.linalg.norm(state[:3]))
+    if found.records.time.shape[1] > 0:
+        _record(found.records, m, pool.step[slot], time, phase, state, command, control)
+    w, v = pool.errors[slot, 0], pool.errors[slot, 1]
+    coast(motion, pair, law.drifts_before[phase], time, delay, burn, idle)
+    push(law, motion, pair, command, w, duration - delay, burn, on_times, applied)
+    coast(motion, pair, law.drifts_after[phase], time + delay, duration - delay, burn, on_times)
+    time += duration
+    pool.time[slot] = time
+    pool.step[slot] += 1
+    pool.errors[slot, 0], pool.errors[slot, 1] = next_error(motion, phase, w, v, numbers, drawn)
+    state = relative(motion, pair)
+    next_estimate(
+        motion, phase, duration, command, state, numbers, drawn, estimate, pool.covariances[slot]
+    )
+    _add_up(found, m, phase, applied, control)
+    pool.spent[slot] = _spent(found, m)
+    found.end_times[m, phase] = time
+    copy(state, found.ends[m, phase])
+    if phase == DOCKING:
+        distance = port_distance(law, estimate, time)
+        _pass_distances(found.passages, m, distance, time, pool.spent[slot])
+    if phase_ended(law, phase, estimate, time):
+        _enter(pool, slot, phase + 1)
 
 
 @compiled

@@ -29,6 +29,8 @@ from smallsat.studies.rendezvous.model.truth import (
 COMMANDED, IMPULSES, BURNS = 0, 1, 2
 # The thrust's amplitude error w stays in these bounds (5.2).
 ERROR_RANGE = (-1.0, 1.0)
+# Normal numbers that a step draws at most: for the thrust's error and for six measurements.
+NUMBERS_A_STEP = 8
 
 
 class NonlinearMotion(NamedTuple):
@@ -193,28 +195,31 @@ def add_burns(burn_time, mean_motion, change, state):
 
 
 @compiled
-def first_error(motion, generator):
-    """Return the state (w, v) of the thrust's amplitude error at time zero."""
-    if motion is None:
-        return 0.0, 0.0
-    return actuation_noise.start(
-        motion.error_start, generator.standard_normal(), generator.standard_normal()
-    )
+def draw(numbers, drawn):
+    """Return the next of some normal numbers (K,) of which so many (1,) are drawn already."""
+    drawn[0] += 1
+    return numbers[drawn[0] - 1]
 
 
 @compiled
-def next_error(motion, phase, w, v, generator):
+def first_error(motion, numbers, drawn):
+    """Return the state (w, v) of the thrust's amplitude error at time zero."""
+    if motion is None:
+        return 0.0, 0.0
+    return actuation_noise.start(motion.error_start, draw(numbers, drawn), draw(numbers, drawn))
+
+
+@compiled
+def next_error(motion, phase, w, v, numbers, drawn):
     """Return the state (w, v) of the thrust's amplitude error after a step of a phase."""
     if motion is None:
         return w, v
     step = Interval(motion.error_transitions[phase], motion.error_factors[phase])
-    return actuation_noise.step(
-        w, v, step, generator.standard_normal(), generator.standard_normal()
-    )
+    return actuation_noise.step(w, v, step, draw(numbers, drawn), draw(numbers, drawn))
 
 
 @compiled
-def first_estimate(motion, start, state, generator, estimate, covariance):
+def first_estimate(motion, start, state, numbers, drawn, estimate, covariance):
     """Fill what the law knows at time zero: estimate (6,) and its covariance (6, 6).
 
     ``start`` is measured; ``state`` is the same but for the rounding of inertial positions.
@@ -222,12 +227,12 @@ def first_estimate(motion, start, state, generator, estimate, covariance):
     if motion is None or not motion.measured:
         copy(state, estimate)
     else:
-        copy(_measured(motion, start, generator), estimate)
+        copy(_measured(motion, start, numbers, drawn), estimate)
         navigation_filter.begin(motion.filter_model, covariance)
 
 
 @compiled
-def next_estimate(motion, phase, duration, command, state, generator, estimate, covariance):
+def next_estimate(motion, phase, duration, command, state, numbers, drawn, estimate, covariance):
     """Bring estimate and covariance to the end of a step that began with a command (3,), m/s.
 
     ``state`` is the true relative state then, ``duration`` the step's length, s.
@@ -235,9 +240,9 @@ def next_estimate(motion, phase, duration, command, state, generator, estimate, 
     if motion is None or not motion.measured:
         copy(state, estimate)
     elif not motion.filtered:
-        copy(_measured(motion, state, generator), estimate)
+        copy(_measured(motion, state, numbers, drawn), estimate)
     else:
-        measured = _measured(motion, state, generator)
+        measured = _measured(motion, state, numbers, drawn)
         navigation_filter.predict(
             estimate, covariance, command, motion.filter_transitions[phase], duration,
             motion.filter_model,
@@ -246,11 +251,11 @@ def next_estimate(motion, phase, duration, command, state, generator, estimate, 
 
 
 @compiled
-def _measured(motion, state, generator):
+def _measured(motion, state, numbers, drawn):
     """Return a relative state (6,) with independent normal errors."""
     measured = np.empty(6)
     share = error_share(state, motion.full_error_from, motion.least_error_share)
     for k in range(6):
         deviation = motion.position_deviation if k < 3 else motion.velocity_deviation
-        measured[k] = state[k] + share * deviation * generator.standard_normal()
+        measured[k] = state[k] + share * deviation * draw(numbers, drawn)
     return measured
