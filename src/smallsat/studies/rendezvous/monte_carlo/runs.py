@@ -26,8 +26,9 @@ from smallsat.studies.rendezvous.simulation.closed_loop import (
     simulate,
 )
 
-# Manoeuvres between two lines of progress.
-CHUNK = 50
+# Manoeuvres that are simulated at once, between two lines of progress: so many that the last ones,
+# which leave lanes of the solver empty, are few.
+CHUNK = 250
 # More runs than any state has, so that each run has a stream of its own, whatever their number.
 RUNS = 1_000_000
 
