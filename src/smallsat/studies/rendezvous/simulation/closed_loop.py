@@ -15,7 +15,10 @@ from smallsat.dynamics.compiled import compiled
 from smallsat.dynamics.lanes import LANES
 from smallsat.optimal_control.riccati_interior_point import SOLVED
 from smallsat.studies.rendezvous.guidance.controller import (
+    Memory,
     control_of_lane,
+    memory_for,
+    next_control,
     phase_ended,
     port_distance,
     solve_lanes,
@@ -48,6 +51,8 @@ from smallsat.studies.rendezvous.simulation.pool import (
     serve,
 )
 
+# So many programs are solved sooner one by one than in lanes of which they leave the others empty.
+FEW = 2
 # How the velocity changes of a manoeuvre are added up, by the names of `delta_v.READINGS`: for
 # `Passages`, and the field of `Manoeuvres`.
 NORM, AXES, RESULTANT, PLANES = 0, 1, 2, 3
@@ -206,11 +211,11 @@ def simulate(
     numbers = {key: k for k, key in enumerate(dict.fromkeys(key for row in keys for key in row))}
     shapes = np.array([[numbers[key] for key in row] for row in keys])
     stages = int(settings_of["horizons"].max())
-    together = together_for(stages)
+    alone, together = memory_for(stages), together_for(stages)
     pool = pool_for(len(starts), len(numbers), stages, motion is not None)
     begun = serve(pool, 0, len(starts), len(laws), generators)
     while (pool.waits != IDLE).any():
-        _fly(settings_of, shapes, starts, phases, motion, together, pool, found)
+        _fly(settings_of, shapes, starts, phases, motion, alone, together, pool, found)
         begun = serve(pool, begun, len(starts), len(laws), generators)
     return found
 
@@ -265,38 +270,45 @@ def _nothing_yet(
 
 
 @compiled
-def _fly(laws, shapes, starts, phases, motion, together, pool, found):
+def _fly(laws, shapes, starts, phases, motion, alone, together, pool, found):
     """Fly the manoeuvres of a pool until one ends or its numbers do; fill their rows of `found`.
 
     Parameters
     ----------
     laws, shapes
         `SETTINGS` records, and the number of each law's shape of program in each phase.
-    together
-        Memory for the programs that are solved together.
+    alone, together
+        Memory for a program that is solved alone, and for those that are solved together.
     """
     for slot in range(len(pool.waits)):
         if pool.waits[slot] == BEGINS:
             _begin(laws[pool.law[slot]], starts, phases, motion, pool, slot)
         if pool.waits[slot] == BEGINS or pool.waits[slot] == DRY:
             _go_on(laws, shapes, motion, pool, slot, found)
-    queue = np.empty(LANES, np.int64)
+    queue, command = np.empty(LANES, np.int64), np.zeros(3)
     while not _wants(pool):
         length = _next_queue(pool, shapes.max() + 1, queue)
         if length == 0:
             return
-        bounds = 0
-        for lane in range(LANES):
-            # lanes that are left over solve the last program once more
-            slot = queue[min(lane, length - 1)]
-            bounds = _write(laws[pool.law[slot]], together, pool, slot, lane)
-        first = queue[0]
-        stages = laws[pool.law[first]].horizons[pool.phase[first]]
-        rows = solve_lanes(stages, bounds, together)
-        for lane in range(length):
-            slot = queue[lane]
-            law = laws[pool.law[slot]]
-            _step(law, motion, together, lane, rows, pool, slot, found)
+        for k in range(length):
+            _look_ahead(laws[pool.law[queue[k]]], pool, queue[k])
+        rows = 0 if length <= FEW else _solve(laws, together, pool, queue[:length])
+        for k in range(length):
+            slot = queue[k]
+            law, phase = laws[pool.law[slot]], pool.phase[slot]
+            if length <= FEW:
+                memory = Memory(
+                    alone.program, alone.work, alone.scaled, pool.plans[slot], pool.remaining[slot]
+                )
+                control = next_control(
+                    law, phase, pool.nominals[slot], pool.time[slot], memory, command
+                )
+            else:
+                control = control_of_lane(
+                    law, phase, together, k, rows, pool.outside[slot], pool.plans[slot],
+                    pool.remaining[slot], command,
+                )  # fmt: skip
+            _step(law, motion, control, command, pool, slot, found)
             if pool.phase[slot] > phases[1]:
                 found.docked[pool.manoeuvre[slot]] = True
                 pool.waits[slot] = ENDED
@@ -367,20 +379,33 @@ def _go_on(laws, shapes, motion, pool, slot, found):
 
 
 @compiled
-def _write(law, together, pool, slot, lane):
-    """Write a slot's program into a lane; return its number of rows on components."""
-    phase, expected, nominal = pool.phase[slot], pool.expected[slot], pool.nominals[slot]
+def _look_ahead(law, pool, slot):
+    """Fill in the state that a slot's program is to be solved for."""
+    expected = pool.expected[slot]
     copy(pool.estimates[slot], expected)
-    apply_transition(law.predictions_before[phase], expected)
+    apply_transition(law.predictions_before[pool.phase[slot]], expected)
     if not pool.within[slot]:
-        copy(expected, nominal)
-    bounds, pool.outside[slot] = write_lane(law, phase, nominal, pool.time[slot], together, lane)
-    return bounds
+        copy(expected, pool.nominals[slot])
 
 
 @compiled
-def _step(law, motion, together, lane, rows, pool, slot, found):
-    """Fly a step with the control that a lane has found.
+def _solve(laws, together, pool, queue):
+    """Solve the programs of slots, of one shape, in lanes; return the number of rows on states."""
+    bounds, phase, stages = 0, pool.phase[queue[0]], 0
+    for lane in range(LANES):
+        # lanes that are left over solve the last program once more
+        slot = queue[min(lane, len(queue) - 1)]
+        law = laws[pool.law[slot]]
+        bounds, pool.outside[slot] = write_lane(
+            law, phase, pool.nominals[slot], pool.time[slot], together, lane
+        )
+        stages = law.horizons[phase]
+    return solve_lanes(stages, bounds, together)
+
+
+@compiled
+def _step(law, motion, control, command, pool, slot, found):
+    """Fly a step with a control and its velocity change (3,), m/s.
 
     With nonlinear motion each step draws eight normal numbers whatever is disturbed, so that
     variants have them in common.
@@ -388,14 +413,10 @@ def _step(law, motion, together, lane, rows, pool, slot, found):
     m, phase, time = pool.manoeuvre[slot], pool.phase[slot], pool.time[slot]
     pair, estimate = pool.pairs[slot], pool.estimates[slot]
     numbers, drawn = pool.numbers[slot], pool.drawn[slot]
-    command, applied = np.zeros(3), np.zeros(3)
+    applied = np.zeros(3)
     burn, on_times, idle = np.zeros(3), np.zeros(3), np.zeros(3)
     duration, delay = law.sample_times[phase], law.delays[phase]
     state = relative(motion, pair)
-    control = control_of_lane(
-        law, phase, together, lane, rows, pool.outside[slot], pool.plans[slot],
-        pool.remaining[slot], command,
-    )  # fmt: skip
     if law.has_tube and phase == DOCKING:
         hold(law, pool.expected[slot], pool.nominals[slot], command)
         pool.within[slot] = True
