@@ -149,8 +149,7 @@ def next_control(law, phase, state, time, memory, command):
     """
     stages = law.horizons[phase]
     program, outside = write_program(law, phase, state, time, memory.program)
-    for k in range(STATES):
-        memory.scaled[k] = state[k] / law.scales[phase, k]
+    _scale(law, phase, state, memory.scaled)
     solution = solve(program, stages, memory.scaled, memory.work, TOLERANCE, ITERATION_LIMIT)
     softened = _take(law, phase, solution, memory.plan, memory.remaining, command)
     return Control(solution.status, solution.iterations, softened, outside)
@@ -166,9 +165,15 @@ def write_lane(law, phase, state, time, together, lane):
         Number of its rows on components, and whether a constraint is violated at the start.
     """
     program, outside = write_program(law, phase, state, time, lane_of(together.programs, lane))
-    for k in range(STATES):
-        together.scaled[k, lane] = state[k] / law.scales[phase, k]
+    _scale(law, phase, state, together.scaled[:, lane])
     return len(program.components), outside
+
+
+@compiled
+def _scale(law, phase, state, scaled):
+    """Fill in a state (6,) in units of the law's scales."""
+    for k in range(STATES):
+        scaled[k] = state[k] / law.scales[phase, k]
 
 
 @compiled

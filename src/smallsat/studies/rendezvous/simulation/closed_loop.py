@@ -285,9 +285,9 @@ def _fly(laws, shapes, starts, phases, motion, alone, together, pool, found):
             _begin(laws[pool.law[slot]], starts, phases, motion, pool, slot)
         if pool.waits[slot] == BEGINS or pool.waits[slot] == DRY:
             _go_on(laws, shapes, motion, pool, slot, found)
-    queue, command = np.empty(LANES, np.int64), np.zeros(3)
+    queue, command, kinds = np.empty(LANES, np.int64), np.zeros(3), shapes.max() + 1
     while not _wants(pool):
-        length = _next_queue(pool, shapes.max() + 1, queue)
+        length = _next_queue(pool, kinds, queue)
         if length == 0:
             return
         for k in range(length):
