@@ -36,9 +36,10 @@ def test_the_loop_measures_with_these_deviations(section, distance, share):
     start = np.array([0.0, distance, 0.0, 0.0, 0.0, 0.0])
     state = relative(motion, begin(motion, start))
     estimates, covariance = np.empty((4000, 6)), np.empty((6, 6))
-    generator = stream(5, 1)
+    numbers, drawn = stream(5, 1).standard_normal(estimates.size), np.zeros(1, np.int64)
     for estimate in estimates:
-        next_estimate(motion, 2, 5.0, np.zeros(3), state, generator, estimate, covariance)
+        next_estimate(motion, 2, 5.0, np.zeros(3), state, numbers, drawn, estimate, covariance)
+    assert drawn[0] == len(numbers)
     found = np.sqrt(((estimates - state) ** 2).reshape(-1, 2, 3).mean(axis=(0, 2)))
     table = section.studies.robustness
     expected = share * np.array([table.position_deviation_m, table.velocity_deviation_m_s])
