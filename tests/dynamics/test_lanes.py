@@ -10,13 +10,14 @@ from smallsat.dynamics.lanes import (
     at_most,
     larger,
     less,
+    power,
     root,
     size,
     some,
     where,
 )
 
-OUTCOMES = 8
+OUTCOMES = 9
 
 
 @compiled_arithmetic
@@ -35,6 +36,7 @@ def one_by_one(a, b, out):
     total -= b
     total /= 3.0
     out[7] = total
+    out[8] = power(size(a), 0.2)
 
 
 @compiled_arithmetic

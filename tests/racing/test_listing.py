@@ -6,13 +6,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from smallsat.dynamics.lanes import LANES
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
 from smallsat.studies.racing.evidence.solver_claims import ranks_at
 from smallsat.studies.racing.methods import listing_races
 from smallsat.studies.racing.methods.flight import COSTATE, least_time, propagate_segment
 from smallsat.studies.racing.methods.listing import guess, solve_segment
 from smallsat.studies.racing.methods.listing_races import flights, targets, without_thrust
-from smallsat.studies.racing.methods.ode45 import end_of_flight
+from smallsat.studies.racing.methods.ode45 import end_of_flight, ends_of_flights
 from smallsat.studies.racing.model.shooting import (
     AXIS_BY_AXIS,
     DIRECTED,
@@ -137,6 +138,28 @@ def test_ode45_takes_a_jump_of_the_thrust(parameters):
         state, start[:6], 60.0, craft, parameters.mean_motion, 1.0, 1e-13, False
     )
     assert np.abs(end[:3] - other[-1, :3]).max() < 1e-6
+
+
+@pytest.mark.parametrize("name", ["Miny", "Mo"])
+def test_flights_side_by_side_are_those_on_their_own(parameters, name):
+    """To the last bit, though each takes steps of its own, and one has no number in it."""
+    state, target, craft = _first(parameters, name)
+    start, shortest = guess(state, 0.0, target, craft.thrust, parameters.listing)
+    law, limits = law_of(craft)
+    random = np.random.default_rng(3)
+    for tolerance in (1e-7, 1e-12):
+        fixed = (parameters.mean_motion, False, law, limits, 1.0, tolerance)
+        starts = np.tile(np.r_[state, start[:6]], (LANES, 1))
+        starts[1:, 6:] += random.normal(size=(LANES - 1, 6))
+        starts[2, 9:], starts[3, 8] = 0.0, np.nan
+        ends = shortest * random.uniform(1.0, 10.0, LANES)
+        found = ends_of_flights(starts, 0.0, ends, *fixed)
+        alone = [end_of_flight(y, 0.0, end, *fixed) for y, end in zip(starts, ends, strict=True)]
+        assert len({steps for _, steps in alone}) > LANES // 2
+        assert np.isnan(found[3]).any()
+        for end, (same, _) in zip(found, alone, strict=True):
+            assert np.array_equal(end, same, equal_nan=True)
+            assert end[~np.isnan(end)].tobytes() == same[~np.isnan(same)].tobytes()
 
 
 def test_the_same_solve_twice(parameters):

@@ -178,6 +178,27 @@ def size(typingctx: Any, one: Any) -> Any:
 
 
 @intrinsic
+def power(typingctx: Any, one: Any, exponent: Any) -> Any:
+    """Raise to a power that is a number, in each lane as the processor's library has it."""
+
+    def codegen(context: Any, builder: Any, sig: Any, values: Any) -> Any:
+        double = ir.DoubleType()
+        function = builder.module.declare_intrinsic(
+            "llvm.pow", [double], ir.FunctionType(double, [double, double])
+        )
+        index = ir.IntType(32)
+        if sig.args[0] is types.float64:
+            return builder.call(function, values)
+        raised = values[0]
+        for lane in (ir.Constant(index, k) for k in range(LANES)):
+            alone = builder.call(function, [builder.extract_element(values[0], lane), values[1]])
+            raised = builder.insert_element(raised, alone, lane)
+        return raised
+
+    return one(one, types.float64), codegen
+
+
+@intrinsic
 def some(typingctx: Any, flag: Any) -> Any:
     """Whether the flag of any lane is not 0."""
 

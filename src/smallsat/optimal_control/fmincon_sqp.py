@@ -11,7 +11,7 @@ MATLAB's is an active-set one, with the same minimiser.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
@@ -73,34 +73,37 @@ class Problem:
     Attributes
     ----------
     functions
-        Maps a point (n,) to the objective, the equalities and the inequalities, in this order.
+        Maps points (m, n) to the objective, the equalities and the inequalities of each, in this
+        order.
     lower, upper
         Bounds (n,).
     equalities
         How many of the values after the objective are equalities; the rest are inequalities.
+    ahead
+        How many steps of a line search are evaluated together, for functions to which several
+        points are no more work than one. It changes neither the steps nor their count.
     """
 
     functions: Callable[[np.ndarray], np.ndarray]
     lower: np.ndarray
     upper: np.ndarray
     equalities: int
+    ahead: int = 1
 
     def violations(self, values: np.ndarray) -> np.ndarray:
         """By how much each constraint is violated."""
-        equal, unequal = np.split(values[1:], [self.equalities])
-        return np.concatenate([np.abs(equal), np.maximum(unequal, 0.0)])
+        violations = np.abs(values[1:])
+        violations[self.equalities :] = np.maximum(values[1 + self.equalities :], 0.0)
+        return violations
 
     def jacobian(self, x: np.ndarray, values: np.ndarray) -> np.ndarray:
         """Forward differences, backward where a bound is in the way."""
-        slopes = np.empty((len(values), len(x)))
-        for i, here in enumerate(x):
-            step = np.copysign(DIFFERENCE * max(abs(here), 1.0), here)
-            moved = x.copy()
-            moved[i] += step
-            if not self.lower[i] <= moved[i] <= self.upper[i]:
-                moved[i], step = here - step, -step
-            slopes[:, i] = (self.functions(moved) - values) / step
-        return slopes
+        steps = np.copysign(DIFFERENCE * np.maximum(np.abs(x), 1.0), x)
+        steps[(x + steps < self.lower) | (x + steps > self.upper)] *= -1.0
+        moved = np.tile(x, (len(x), 1))
+        moved[np.diag_indices(len(x))] += steps
+        # Products of rows that lie apart may round otherwise.
+        return np.ascontiguousarray(((self.functions(moved) - values) / steps[:, None]).T)
 
 
 @dataclass(frozen=True)
@@ -159,16 +162,9 @@ class _Merit:
 
 def minimise(problem: Problem, guess: np.ndarray, evaluations: int) -> SqpSolution:
     """Minimise from a guess (n,), moved into the bounds, with at most so many evaluations."""
-    count, functions = 0, problem.functions
-
-    def counted(x: np.ndarray) -> np.ndarray:
-        nonlocal count
-        count += 1
-        return functions(x)
-
-    problem = replace(problem, functions=counted)
     x = np.clip(guess, problem.lower, problem.upper)
-    values = counted(x)
+    values = problem.functions(x[None])[0]
+    count = 1 + len(x)
     point = _Point(x, values, problem.jacobian(x, values))
     merit = _Merit(problem, values)
     feasible_to = TOLERANCE * max(1.0, _worst(problem, point))
@@ -182,9 +178,10 @@ def minimise(problem: Problem, guess: np.ndarray, evaluations: int) -> SqpSoluti
             weight = largest if iterations else RELAXATION * max(1.0, largest)
             step = _relaxed_step(problem, point, curvature, weight)
         merit.prepare(point.values, step, iterations)
-        taken = _line_search(
-            problem, merit, point, step, None if relaxed else curvature, lambda: count < evaluations
+        taken, looked_at = _line_search(
+            problem, merit, point, step, None if relaxed else curvature, evaluations - count
         )
+        count += looked_at
         if taken is None:
             feasible = _worst(problem, point) <= feasible_to
             if count < evaluations and (feasible or relaxed):
@@ -196,6 +193,7 @@ def minimise(problem: Problem, guess: np.ndarray, evaluations: int) -> SqpSoluti
         length, x, values = taken
         multipliers = multipliers + length * (step.multipliers - multipliers)
         before, point = point, _Point(x, values, problem.jacobian(x, values))
+        count += len(x)
         flag, again = _exit_flag(problem, before, point, multipliers, feasible_to, relaxed)
         relaxed = again
         change = point.slope(multipliers) - before.slope(multipliers)
@@ -224,34 +222,41 @@ def _line_search(
     point: _Point,
     step: _Step,
     curvature: np.ndarray | None,
-    more: Callable[[], bool],
-) -> tuple[float, np.ndarray, np.ndarray] | None:
-    """Length, point and values of the first step that lowers the merit enough; None without one.
+    most: int,
+) -> tuple[tuple[float, np.ndarray, np.ndarray] | None, int]:
+    """Length, point and values of the first step that lowers the merit enough, None without one.
 
     Where a full step lowers the objective and raises the merit, it is corrected to second order,
-    unless it is a relaxed one, which has no ``curvature``.
+    unless it is a relaxed one, which has no ``curvature``. Also how many evaluations it took, of
+    which only those of full steps may exceed ``most``.
     """
 
-    def reached(move: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
-        x = np.clip(point.x + move, problem.lower, problem.upper)
-        values = problem.functions(x)
-        return x, values, merit.of(values)
+    def reached(moves: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+        points = np.clip(point.x + moves, problem.lower, problem.upper)
+        return points, problem.functions(points)
 
-    here, length, bend = merit.of(point.values), 1.0, np.zeros_like(point.x)
-    x, values, there = reached(step.direction)
+    here, bend = merit.of(point.values), np.zeros_like(point.x)
+    (x,), (values,) = reached([step.direction])
+    there, count = merit.of(values), 1
     if curvature is not None and here < there < np.inf and values[0] < point.values[0]:
-        ahead = values - point.jacobian @ step.direction
-        second = _normal_step(problem, point, ahead, curvature)
+        corrected = values - point.jacobian @ step.direction
+        second = _normal_step(problem, point, corrected, curvature)
         if second is not None:
             bend = second.direction - step.direction
-            x, values, there = reached(second.direction)
-    while there > here + length * ARMIJO * merit.slope:
-        length *= SHORTER
-        move = length * step.direction + length**2 * bend
-        if not more() or _small(move, point.x):
-            return None
-        x, values, there = reached(move)
-    return length, x, values
+            (x,), (values,) = reached([second.direction])
+            there, count = merit.of(values), 2
+    if not there > here + ARMIJO * merit.slope:
+        return (1.0, x, values), count
+    length = 1.0
+    while True:
+        lengths = [length := length * SHORTER for _ in range(problem.ahead)]
+        moves = [one * step.direction + one**2 * bend for one in lengths]
+        for one, move, x, values in zip(lengths, moves, *reached(moves), strict=True):
+            if count >= most or _small(move, point.x):
+                return None, count
+            count += 1
+            if not merit.of(values) > here + one * ARMIJO * merit.slope:
+                return (one, x, values), count
 
 
 def _exit_flag(

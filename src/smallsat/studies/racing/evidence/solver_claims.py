@@ -300,7 +300,7 @@ def ranks_at(parameters: Parameters, z: np.ndarray, transposed: bool) -> tuple[i
     for i, value in enumerate(z):
         step = np.zeros(len(z))
         step[i] = STEP * abs(value)
-        above, below = (listing.functions(z + s, *fixed) for s in (step, -step))
+        above, below = listing.functions(np.array([z + step, z - step]), *fixed)
         # Relative to each unknown, so that the rank does not hang on units.
         jacobian[:, i] = (above - below)[1 : 1 + listing.EQUALITIES] / (2.0 * STEP)
     moving = int((np.abs(jacobian).max(axis=1) > 0.0).sum())

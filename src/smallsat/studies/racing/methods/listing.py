@@ -16,9 +16,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from smallsat.dynamics.compiled import compiled
+from smallsat.dynamics.lanes import LANES
 from smallsat.optimal_control.fmincon_sqp import Problem, minimise
 from smallsat.studies.racing.methods.flight import least_time
-from smallsat.studies.racing.methods.ode45 import end_of_flight
+from smallsat.studies.racing.methods.ode45 import end_of_flight, ends_of_flights
 from smallsat.studies.racing.model.cubesat import CubeSat
 from smallsat.studies.racing.model.shooting import hamiltonian, law_of
 from smallsat.studies.racing.parameters import Listing
@@ -110,10 +111,11 @@ def solve_segment(
     bound = listing.costate_bound
     solution = minimise(
         Problem(
-            lambda z: functions(z, state, began, dynamics, wanted, numbers),
+            lambda points: functions(points, state, began, dynamics, wanted, numbers),
             np.r_[np.full(COSTATES, -bound), began + shortest],
             np.r_[np.full(COSTATES, bound), np.inf],
             EQUALITIES,
+            ahead=LANES,
         ),
         start if unknowns is None else unknowns,
         listing.evaluations,
@@ -134,16 +136,38 @@ def solve_segment(
 
 
 @compiled
-def functions(z, state, began, dynamics, wanted, numbers):
-    """Cost, twelve equalities in the listing's order, and the two inequalities of a ring."""
-    mean_motion, transposed, law, limits = dynamics
+def functions(points, state, began, dynamics, wanted, numbers):
+    """Cost, equalities and inequalities, as `_values`, of unknowns (m, 7): (m, 13) or (m, 15)."""
+    (mean_motion, transposed, law, limits), final = dynamics, wanted[4]
+    deadzone, tolerance = numbers[0], numbers[3]
+    found = np.empty((len(points), 1 + EQUALITIES + (0 if final else INEQUALITIES)))
+    for first in range(0, len(points), LANES):
+        group = points[first : first + LANES]
+        before, arrivals = np.empty((LANES, 12)), np.empty(LANES)
+        for lane in range(LANES):
+            # lanes that are left over fly the last one once more
+            z = group[min(lane, len(group) - 1)]
+            before[lane, :6], before[lane, 6:], arrivals[lane] = state, z[:COSTATES], z[COSTATES]
+        after = ends_of_flights(
+            before, began, arrivals, mean_motion, transposed, law, limits, deadzone, tolerance
+        )
+        for lane in range(len(group)):
+            duration = arrivals[lane] - began
+            found[first + lane] = _values(
+                before[lane], after[lane], duration, dynamics, wanted, numbers
+            )
+    return found
+
+
+@compiled
+def _values(before, after, duration, dynamics, wanted, numbers):
+    """Cost, twelve equalities in the listing's order, and the two inequalities of a ring.
+
+    Of states with costates (12,) at the ends of a flight, s.
+    """
+    mean_motion, _, law, limits = dynamics
     centre, normal, size, plane, final = wanted
-    deadzone, constraint_deadzone, target, tolerance = numbers
-    before = np.concatenate((state, z[:COSTATES]))
-    after, _ = end_of_flight(
-        before, began, z[COSTATES], mean_motion, transposed, law, limits, deadzone, tolerance
-    )
-    duration = z[COSTATES] - began
+    _, constraint_deadzone, target, _ = numbers
     first = hamiltonian(before, mean_motion, law, limits, constraint_deadzone)
     last = hamiltonian(after, mean_motion, law, limits, constraint_deadzone)
     # The initial state and time are met whatever the unknowns are: seven rows that never move.

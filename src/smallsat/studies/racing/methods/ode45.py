@@ -6,9 +6,22 @@ state at its two ends and a threshold, a first step from the first rate, a tenth
 most.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
-from smallsat.dynamics.compiled import compiled
+from smallsat.dynamics.compiled import compiled, compiled_arithmetic
+from smallsat.dynamics.lanes import (
+    LANES,
+    as_lanes,
+    at_most,
+    larger,
+    less,
+    power,
+    size,
+    some,
+    where,
+)
 from smallsat.studies.racing.model.shooting import rate
 
 NODES = np.array(
@@ -25,6 +38,25 @@ NODES = np.array(
 ERROR = np.array([71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40])
 POWER = 1.0 / 5.0
 EPSILON = np.finfo(float).eps
+STAGES, STATES = 7, 12
+
+
+class Workspace(NamedTuple):
+    """What a flight writes on; of lanes, each has a last axis more.
+
+    Attributes
+    ----------
+    state
+        State and costate, (12,): where a flight begins, and where it ended.
+    new
+        The same after the step that is tried.
+    rates
+        Rates at the stages of the step, (7, 12).
+    """
+
+    state: np.ndarray
+    new: np.ndarray
+    rates: np.ndarray
 
 
 @compiled
@@ -34,54 +66,76 @@ def end_of_flight(y, t, end, n, transposed, law, limits, deadzone, tolerance):
     ``tolerance`` is both the relative and the absolute one. Where the step falls below the spacing
     of numbers, the flight ends there, as ``ode45`` does with a warning.
     """
-    rates = np.empty((7, 12))
-    y, new = y.copy(), np.empty(12)
+    work = Workspace(y.copy(), np.empty(STATES), np.empty((STAGES, STATES)))
+    tried = _fly(work, t, end, n, transposed, law, limits, deadzone, tolerance)
+    return work.state, tried
+
+
+@compiled
+def ends_of_flights(y, t, ends, n, transposed, law, limits, deadzone, tolerance):
+    """The same of LANES flights (LANES, 12) that end at times (LANES,), each to the same bits."""
+    state, new = np.empty((STATES, LANES)), np.empty((STATES, LANES))
+    state[:] = y.T
+    rates = np.empty((STAGES, STATES, LANES))
+    work = Workspace(as_lanes(state), as_lanes(new), as_lanes(rates))
+    end = as_lanes(ends.reshape(1, LANES))[0]
+    _fly(work, t, end, n, transposed, law, limits, deadzone, tolerance)
+    return state.T.copy()
+
+
+@compiled_arithmetic
+def _fly(work, t, end, n, transposed, law, limits, deadzone, tolerance):
+    """Fly from the state of a workspace to its end; return how many steps were tried.
+
+    Of lanes, each tries steps of its own, until all have ended.
+    """
+    y, new, rates = work
     rate(y, n, transposed, law, limits, deadzone, rates[0])
-    most = 0.1 * (end - t)
-    h = min(most, end - t)
-    steepest = 0.0
-    for i in range(12):
-        steepest = max(steepest, abs(rates[0, i]) / max(abs(y[i]), 1.0))
+    most, steepest = 0.1 * (end - t), 0.0
+    for i in range(STATES):
+        steepest = larger(steepest, size(rates[0, i]) / larger(size(y[i]), 1.0))
     steepest /= 0.8 * tolerance**POWER
-    if h * steepest > 1.0:
-        h = 1.0 / steepest
-    tried, done = 0, False
-    while not done:
-        least = 16.0 * EPSILON * max(abs(t), 1e-300)
-        h = min(most, max(least, h))
-        if 1.1 * h >= end - t:
-            h, done = end - t, True
-        failed = False
-        while True:
-            tried += 1
-            for s in range(1, 7):
-                for i in range(12):
-                    total = 0.0
-                    for j in range(s):
-                        total += NODES[s, j] * rates[j, i]
-                    new[i] = y[i] + h * total
-                rate(new, n, transposed, law, limits, deadzone, rates[s])
-            error = 0.0
-            for i in range(12):
+    h = _smaller(most, end - t)
+    h = where(less(1.0, h * steepest), 1.0 / steepest, h)
+    flies, failed, tried = 1.0, 0.0, 0.0
+    while some(flies):
+        tried += flies
+        least = 16.0 * EPSILON * larger(size(t), 1e-300)
+        # A step that failed is tried with the length that this left it.
+        proposed = _smaller(most, larger(least, h))
+        last = where(failed, 0.0, at_most(end - t, 1.1 * proposed))
+        h = where(failed, h, where(last, end - t, proposed))
+        for s in range(1, STAGES):
+            for i in range(STATES):
                 total = 0.0
-                for j in range(7):
-                    total += ERROR[j] * rates[j, i]
-                error = max(error, abs(total) / max(abs(y[i]), abs(new[i]), 1.0))
-            error *= h
-            if error <= tolerance:
-                break
-            if h <= least or not error < np.inf:
-                return y, tried
-            if failed:
-                h = max(least, 0.5 * h)
-            else:
-                failed = True
-                h = max(least, h * max(0.1, 0.8 * (tolerance / error) ** POWER))
-            done = False
-        t = end if done else t + h
-        y[:] = new
-        rates[0] = rates[6]
-        if not failed:
-            smaller = 1.25 * (error / tolerance) ** POWER
-            h = h / smaller if smaller > 0.2 else 5.0 * h
-    return y, tried
+                for j in range(s):
+                    total += NODES[s, j] * rates[j, i]
+                new[i] = y[i] + h * total
+            rate(new, n, transposed, law, limits, deadzone, rates[s])
+        error = 0.0
+        for i in range(STATES):
+            total = 0.0
+            for j in range(STAGES):
+                total += ERROR[j] * rates[j, i]
+            error = larger(error, size(total) / larger(larger(size(y[i]), size(new[i])), 1.0))
+        error *= h
+        small = at_most(error, tolerance)
+        off = power(where(small, error / tolerance, tolerance / error), POWER)
+        taken = flies * small
+        ends = where(small, last, where(at_most(h, least), 1.0, 1.0 - less(error, np.inf)))
+        for i in range(STATES):
+            y[i] = where(taken, new[i], y[i])
+            rates[0, i] = where(taken, rates[STAGES - 1, i], rates[0, i])
+        t = where(taken, t + h, t)
+        after = where(less(0.2, 1.25 * off), h / (1.25 * off), 5.0 * h)
+        again = larger(least, where(failed, 0.5 * h, h * larger(0.1, 0.8 * off)))
+        h = where(small, where(failed, h, after), again)
+        failed = 1.0 - small
+        flies *= 1.0 - ends
+    return tried
+
+
+@compiled_arithmetic
+def _smaller(one, other):
+    """Return the smaller of two; as Python's `min`, the first where they do not compare."""
+    return where(less(other, one), other, one)

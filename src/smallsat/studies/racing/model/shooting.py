@@ -5,11 +5,10 @@ in the control. So a segment is a sum over the Gauss points of equal panels; not
 step by step. SI units.
 """
 
-from math import sqrt
-
 import numpy as np
 
-from smallsat.dynamics.compiled import compiled
+from smallsat.dynamics.compiled import compiled, compiled_arithmetic
+from smallsat.dynamics.lanes import less, root, size, where
 from smallsat.dynamics.orbits.clohessy_wiltshire import rate_matrix
 from smallsat.studies.racing.model.cubesat import CubeSat
 
@@ -48,31 +47,32 @@ def exponential(a, t):
     return total
 
 
-@compiled
+@compiled_arithmetic
 def thrust_components(primer, law, limits, deadzone):
-    """Acceleration that a law makes of a primer vector (3,), as three numbers.
+    """Acceleration that a law makes of a primer vector (3,), as three numbers or lanes.
 
     ``limits`` are the accelerations of the axes; a directed thruster has the first one in every
     direction.
     """
     if law == AXIS_BY_AXIS:
         return (
-            -limits[0] * np.sign(primer[0]),
-            -limits[1] * np.sign(primer[1]),
-            -limits[2] * np.sign(primer[2]),
+            limits[0] * (less(primer[0], 0.0) - less(0.0, primer[0])),
+            limits[1] * (less(primer[1], 0.0) - less(0.0, primer[1])),
+            limits[2] * (less(primer[2], 0.0) - less(0.0, primer[2])),
         )
-    size = sqrt(primer[0] ** 2 + primer[1] ** 2 + primer[2] ** 2)
-    if size == 0.0:
-        return 0.0, 0.0, 0.0
+    length = root(primer[0] * primer[0] + primer[1] * primer[1] + primer[2] * primer[2])
     thrust = limits[0]
     if law == NORM_OF_AXES:
         total = 0.0
         for i in range(3):
-            if abs(primer[i]) > deadzone:
-                total += limits[i] ** 2
-        thrust = sqrt(total)
-    share = -thrust / size
-    return share * primer[0], share * primer[1], share * primer[2]
+            total += where(less(deadzone, size(primer[i])), limits[i] * limits[i], 0.0)
+        thrust = root(total)
+    share = -thrust / length
+    return (
+        where(length, share * primer[0], 0.0),
+        where(length, share * primer[1], 0.0),
+        where(length, share * primer[2], 0.0),
+    )
 
 
 @compiled
@@ -81,11 +81,11 @@ def thrust_of(primer, law, limits, deadzone):
     return np.array(thrust_components(primer, law, limits, deadzone))
 
 
-@compiled
+@compiled_arithmetic
 def rate(y, n, transposed, law, limits, deadzone, out):
     """Rate (12,) of state and costate by Listing C.F, or with the costates' matrix transposed.
 
-    Written to ``out``; `thrust_components` has the other arguments.
+    Of numbers or of lanes, written to ``out``; `thrust_components` has the other arguments.
     """
     ux, uy, uz = thrust_components(y[9:], law, limits, deadzone)
     out[0], out[1], out[2] = y[3], y[4], y[5]
