@@ -13,11 +13,12 @@ from smallsat.dynamics.lanes import (
     power,
     root,
     size,
+    smaller,
     some,
     where,
 )
 
-OUTCOMES = 9
+OUTCOMES = 10
 
 
 @compiled_arithmetic
@@ -37,6 +38,7 @@ def one_by_one(a, b, out):
     total /= 3.0
     out[7] = total
     out[8] = power(size(a), 0.2)
+    out[9] = smaller(a, b)
 
 
 @compiled_arithmetic
@@ -67,11 +69,12 @@ def test_each_lane_is_a_number_on_its_own(offset):
         assert out[numbers, lane].tobytes() == alone[numbers].tobytes(), lane
 
 
-def test_larger_is_pythons():
+def test_larger_and_smaller_are_pythons():
     alone = np.empty(OUTCOMES)
     for a, b in ((1.0, 2.0), (2.0, 1.0), (np.nan, 1.0), (1.0, np.nan), (0.0, -0.0)):
         one_by_one(a, b, alone)
         assert np.array_equal(alone[3], max(a, b), equal_nan=True)
+        assert np.array_equal(alone[9], min(a, b), equal_nan=True)
 
 
 @pytest.mark.parametrize("lane", range(LANES))

@@ -166,6 +166,15 @@ def larger(typingctx: Any, one: Any, other: Any) -> Any:
 
 
 @intrinsic
+def smaller(typingctx: Any, one: Any, other: Any) -> Any:
+    """Return the smaller of two; as Python's `min`, the first where they do not compare."""
+    return _elementwise(
+        (one, other),
+        lambda builder, kind, a, b: builder.select(builder.fcmp_ordered("<", b, a), b, a),
+    )
+
+
+@intrinsic
 def root(typingctx: Any, one: Any) -> Any:
     """Return the square root."""
     return _elementwise((one,), lambda builder, kind, a: _call(builder, "llvm.sqrt", kind, a))

@@ -19,6 +19,7 @@ from smallsat.dynamics.lanes import (
     less,
     power,
     size,
+    smaller,
     some,
     where,
 )
@@ -95,14 +96,14 @@ def _fly(work, t, end, n, transposed, law, limits, deadzone, tolerance):
     for i in range(STATES):
         steepest = larger(steepest, size(rates[0, i]) / larger(size(y[i]), 1.0))
     steepest /= 0.8 * tolerance**POWER
-    h = _smaller(most, end - t)
+    h = smaller(most, end - t)
     h = where(less(1.0, h * steepest), 1.0 / steepest, h)
     flies, failed, tried = 1.0, 0.0, 0.0
     while some(flies):
         tried += flies
         least = 16.0 * EPSILON * larger(size(t), 1e-300)
         # A step that failed is tried with the length that this left it.
-        proposed = _smaller(most, larger(least, h))
+        proposed = smaller(most, larger(least, h))
         last = where(failed, 0.0, at_most(end - t, 1.1 * proposed))
         h = where(failed, h, where(last, end - t, proposed))
         for s in range(1, STAGES):
@@ -133,9 +134,3 @@ def _fly(work, t, end, n, transposed, law, limits, deadzone, tolerance):
         failed = 1.0 - small
         flies *= 1.0 - ends
     return tried
-
-
-@compiled_arithmetic
-def _smaller(one, other):
-    """Return the smaller of two; as Python's `min`, the first where they do not compare."""
-    return where(less(other, one), other, one)
