@@ -72,6 +72,13 @@ def test_no_thrust_where_no_axis_is_active():
     assert thrust_components(np.full(3, 0.5), NORM_OF_AXES, LIMITS, 1.0) == (0.0, 0.0, 0.0)
 
 
+@pytest.mark.parametrize("law", [DIRECTED, NORM_OF_AXES, AXIS_BY_AXIS])
+def test_no_law_hides_what_is_no_number(law):
+    """A primer that is zero gives no thrust, and one that is no number gives none that is one."""
+    assert np.all(np.array(thrust_components(np.zeros(3), law, LIMITS, 0.0)) == 0.0)
+    assert np.isnan(thrust_components(np.full(3, np.nan), law, LIMITS, 0.0)).all()
+
+
 @pytest.mark.parametrize("transposed", [True, False])
 def test_quadrature_is_the_flight(parameters, transposed):
     """A segment by Gauss points against an adaptive method of order 8: 1e-5 m after 100 s."""

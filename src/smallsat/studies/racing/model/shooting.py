@@ -56,9 +56,9 @@ def thrust_components(primer, law, limits, deadzone):
     """
     if law == AXIS_BY_AXIS:
         return (
-            limits[0] * (less(primer[0], 0.0) - less(0.0, primer[0])),
-            limits[1] * (less(primer[1], 0.0) - less(0.0, primer[1])),
-            limits[2] * (less(primer[2], 0.0) - less(0.0, primer[2])),
+            -limits[0] * _sign(primer[0]),
+            -limits[1] * _sign(primer[1]),
+            -limits[2] * _sign(primer[2]),
         )
     length = root(primer[0] * primer[0] + primer[1] * primer[1] + primer[2] * primer[2])
     thrust = limits[0]
@@ -73,6 +73,12 @@ def thrust_components(primer, law, limits, deadzone):
         where(length, share * primer[1], 0.0),
         where(length, share * primer[2], 0.0),
     )
+
+
+@compiled_arithmetic
+def _sign(one):
+    """Return the sign of a number or of lanes; what is zero or no number stays so."""
+    return where(less(one, 0.0), -1.0, where(less(0.0, one), 1.0, one))
 
 
 @compiled
