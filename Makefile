@@ -79,9 +79,9 @@ audit: $(VENV)/installed
 	$(PIP) --require-hashes -r requirements.audit.lock
 	@python tests/audit/run.py
 
-# A study, STUDY=mars, with the newest versions of all packages beside the locked ones: which numbers move.
+# All studies, or one, STUDY=mars, with the newest versions of all packages beside the locked ones: which numbers move.
 drift: $(VENV)/installed
-	@python tests/drift/run.py $(or $(STUDY),mars)
+	@python tests/drift/run.py $(STUDY)
 
 # What-if runs side by side, and beside the reproduction, in one page: RUNS="runs/heavier runs/lighter".
 compare: $(VENV)/installed

@@ -1,7 +1,7 @@
-"""Build a study with the newest packages, and say which numbers move: ``make drift``.
+"""Build the studies with the newest packages, and say which numbers move: ``make drift``.
 
 The newest versions that ``pyproject.toml`` admits go into an environment of their own, anew in each
-call. With them and with those of the lock the study is built in small sizes, by
+call. With them and with those of the lock the studies are built in small sizes, by
 ``config/quick.yaml``, and every number of every table is held beside the other.
 """
 
@@ -19,6 +19,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from smallsat.catalogue import read_catalogue
 from smallsat.evidence.accepted import findings, flipped
 from smallsat.results import read_table
 from smallsat.workflow.crate import code_version
@@ -50,11 +51,11 @@ def packages(python: Path) -> dict[str, str]:
     return {one["name"].lower().replace("_", "-"): one["version"] for one in listed}
 
 
-def build(python: Path, study: str, run: str) -> Path:
-    """Folder of a run of the study in small sizes, made anew; fails where the build does."""
+def build(python: Path, studies: list[str], run: str) -> Path:
+    """Folder of a run of the studies in small sizes, made anew; fails where the build does."""
     # Snakemake does not see that packages have changed.
     shutil.rmtree(PROJECT / "runs" / run, ignore_errors=True)
-    call = [python.parent / "snakemake", study, "--configfile", CONFIGURATION]
+    call = [python.parent / "snakemake", *studies, "--configfile", CONFIGURATION]
     subprocess.run([*call, "--config", f"run={run}"], cwd=PROJECT, check=True)
     return PROJECT / "runs" / run
 
@@ -117,41 +118,51 @@ def write(path: Path, header: tuple[str, ...], rows: list[tuple[object, ...]]) -
 
 def main() -> None:
     """Build both, keep what moved and which versions did, and say so."""
+    known = [study.name for study in read_catalogue(PROJECT / "data/published")]
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("study")
-    study = parser.parse_args().study
+    parser.add_argument("studies", nargs="*", metavar="study", help="studies to build; else all")
+    given = parser.parse_args().studies
+    for study in given:
+        if study not in known:
+            sys.exit(f"drift: {study!r} is no study; studies are {', '.join(known)}")
+    studies = given or known
     os.chdir(PROJECT)
     newer = make_environment()
     own, others = packages(Path(sys.executable)), packages(newer)
-    newest = build(newer, study, "drift-newest")
-    locked = build(Path(sys.executable), study, "drift-locked")
-    table = comparison(locked, newest, study)
-    moved = table[table["moved"] > 0].sort_values("largest_change", ascending=False)
-    before, now = (findings(run / "data/results") for run in (locked, newest))
-    outcomes = flipped(before, now)
     changed = sorted(name for name in own.keys() & others.keys() if own[name] != others[name])
-    run = (
-        datetime.date.today().isoformat(),
-        study,
-        CONFIGURATION,
-        len(others),
-        len(changed),
-        table["table"].nunique(),
-        int(table["numbers"].sum()),
-        int(table["moved"].sum()),
-        f"{table['largest_change'].max():.3g}",
-        len(outcomes),
-        machine(),
-        code_version(PROJECT),
-        f"make drift STUDY={study}",
-    )
-    header = "date study configuration packages newer tables cells moved largest_change outcomes"
-    write(OUTPUT / "drift.csv", (*header.split(), "machine", "code", "command"), [run])
+    newest = build(newer, studies, "drift-newest")
+    locked = build(Path(sys.executable), studies, "drift-locked")
+    found = {study: comparison(locked, newest, study) for study in studies}
+    outcomes = flipped(*(findings(run / "data/results") for run in (locked, newest)))
+    about = {
+        "date": datetime.date.today().isoformat(),
+        "configuration": CONFIGURATION,
+        "packages": len(others),
+        "newer": len(changed),
+        "machine": machine(),
+        "code": code_version(PROJECT),
+        "command": " ".join(["make drift", *(f"STUDY={study}" for study in given)]),
+    }
+    runs = [
+        about
+        | {
+            "study": study,
+            "tables": table["table"].nunique(),
+            "cells": int(table["numbers"].sum()),
+            "moved": int(table["moved"].sum()),
+            "largest_change": f"{table['largest_change'].max():.3g}",
+            "outcomes": sum(name.startswith(f"{study}/") for name in outcomes.index),
+        }
+        for study, table in found.items()
+    ]
+    write(OUTPUT / "drift.csv", tuple(runs[0]), [tuple(run.values()) for run in runs])
     write(
         OUTPUT / "drift-packages.csv",
         ("package", "locked", "newest"),
         [(name, own[name], others[name]) for name in changed],
     )
+    table = pd.concat(found.values())
+    moved = table[table["moved"] > 0].sort_values("largest_change", ascending=False)
     rows = [(*row[:4], f"{row[4]:.3g}") for row in moved.itertuples(index=False)]
     write(OUTPUT / "drift-moved.csv", COLUMNS, rows)
     for name in changed:
@@ -160,10 +171,9 @@ def main() -> None:
         print(f"moved: {row[0]}, {row[1]}: {row[3]} of {row[2]}, the largest by {row[4]}")
     for row in outcomes.itertuples():
         print(f"outcome: {row.Index}: {row.before} locked, {row.now} newest")
-    print(
-        f"{len(changed)} packages are newer; {run[7]} of {run[6]} cells moved, "
-        f"{len(outcomes)} outcomes differ"
-    )
+    for run in runs:
+        print("{study}: {moved} of {cells} cells moved, {outcomes} outcomes differ".format(**run))
+    print(f"{len(changed)} packages are newer")
 
 
 if __name__ == "__main__":
