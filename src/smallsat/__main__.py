@@ -5,6 +5,7 @@ import sys
 from importlib import import_module
 
 from smallsat.errors import report_input_errors
+from smallsat.workflow.fork_server import forked
 from smallsat.workflow.one_build import end_with_build
 
 # Each command is a module with `add_arguments` and `main`, and is imported alone: a rule's sources
@@ -12,6 +13,7 @@ from smallsat.workflow.one_build import end_with_build
 COMMANDS = {
     "run": "smallsat.workflow.run_step",
     "notebook": "smallsat.workflow.notebook",
+    "kernel": "smallsat.workflow.kernel",
     "judge": "smallsat.evidence.judge",
     "merge": "smallsat.evidence.merge",
     "summary": "smallsat.evidence.summary",
@@ -45,4 +47,7 @@ def main() -> None:
 
 
 if __name__ == "__main__":
+    status = forked()
+    if status is not None:
+        raise SystemExit(status)
     report_input_errors(main)

@@ -18,9 +18,15 @@ BESIDES = (".venv", ".cache", ".snakemake", "logs", "src")
 
 def record(folder: Path) -> None:
     """Note from now on each module of `smallsat` and each file of the project, once."""
+    from smallsat.workflow.fork_server import WAITS
+
     folder.mkdir(parents=True, exist_ok=True)
     file = (folder / f"{time.time_ns()}-{os.getpid()}.txt").open("w", buffering=1)
-    file.write(json.dumps({"pid": os.getpid(), "parent": os.getppid(), "argv": sys.orig_argv}))
+    # A fork does the work of who waits for it.
+    waits = os.environ.get(WAITS)
+    parent = int(waits or os.getppid())
+    process = {"pid": os.getpid(), "parent": parent, "fork": bool(waits), "argv": sys.orig_argv}
+    file.write(json.dumps(process))
     file.write("\n")
     seen: set[str] = set()
 

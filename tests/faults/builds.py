@@ -56,11 +56,19 @@ class Build:
         return None
 
     def workers(self) -> list[psutil.Process]:
-        """Jobs that run now."""
+        """Jobs that run now: who waits for a fork, or does its work by itself."""
         return [
             process
             for process in _family(self.shell.pid)
             if _words(process)[1:2] == ["-m"] and _words(process)[2:3] == ["smallsat"]
+        ]
+
+    def forks(self) -> list[psutil.Process]:
+        """The server of forks, and those that run now."""
+        return [
+            process
+            for process in _family(self.shell.pid)
+            if Path("".join(_words(process)[1:2])).name == "fork_server.py"
         ]
 
     def spent(self) -> float:

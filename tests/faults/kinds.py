@@ -56,6 +56,19 @@ def kill_worker(build: Build, random: Random) -> str:
     return hit.split(" --")[0]
 
 
+def kill_fork(build: Build, random: Random) -> str:
+    """SIGKILL to the server of forks or to one of them, while a job runs."""
+    deadline = time.monotonic() + 60
+    while len(forks := build.forks()) < 2:
+        if build.shell.poll() is not None or time.monotonic() > deadline:
+            return "nothing: no job ran"
+        time.sleep(0.02)
+    fork = random.choice(forks)
+    hit = "a fork" if fork.parent() in forks else "the server of forks"
+    fork.kill()
+    return hit
+
+
 def kill_snakemake(build: Build, random: Random) -> str:
     """SIGKILL to Snakemake alone; its jobs have to notice."""
     process = build.snakemake()
@@ -220,4 +233,5 @@ FAULTS = (
     Fault("clock set back, stopped", stop_and_set_clock_back, 1),
     Fault("clock set back, running", set_clock_back, 1),
     Fault("two builds at once", let_it_run, 2, beside=True),
+    Fault("SIGKILL to a fork or the server", kill_fork, 4),
 )

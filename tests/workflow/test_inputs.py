@@ -20,12 +20,13 @@ RUN = "runs/tests"
 
 @dataclass
 class Job:
-    """A job of Snakemake: what its rule declares and what its processes opened."""
+    """A job of Snakemake: what its rule declares, what its processes opened, whether in a fork."""
 
     rule: str
     inputs: set[str]
     outputs: set[str] = field(default_factory=set)
     opened: set[str] | None = None
+    fork: bool = False
 
 
 def words_of(command):
@@ -33,8 +34,8 @@ def words_of(command):
     return tuple(shlex.split(command.partition(" > ")[0].partition(" | ")[0]))
 
 
-# Ends a job whose build has ended; what a job makes does not depend on it.
-WATCH = {"src/smallsat/workflow/__init__.py", "src/smallsat/workflow/one_build.py"}
+# Forks a job, and ends it when its build has ended; what a job makes does not depend on it.
+WATCH = {f"src/smallsat/workflow/{name}.py" for name in ("__init__", "fork_server", "one_build")}
 
 
 def source(root, name):
@@ -87,24 +88,36 @@ def run_clean(command, root, more):
 
 
 def read_records(root, folder, jobs):
-    """Give each job what its last process opened, and the kernels that this one started."""
-    processes = {}
+    """Give each job what its last process opened, and the kernels that this one started.
+
+    A process that waits comes before the fork that does its work.
+    """
+    processes: dict[int, Job] = {}
     for path in sorted(folder.glob("*.txt")):
         head, *lines = path.read_text().splitlines()
         names = {source(root, line) for line in lines}
         process = json.loads(head)
         words = ("python", *process["argv"][1:])
         if words in jobs:
-            jobs[words].opened = names
-            processes[process["pid"]] = jobs[words]
-        elif process["parent"] in processes:
-            processes[process["parent"]].opened |= names
+            job = jobs[words]
+            job.opened, job.fork = names, process["fork"]
+        elif job := processes.get(process["parent"]):
+            job.opened |= names
+        else:
+            continue
+        processes[process["pid"]] = job
 
 
 def test_every_job_was_seen(jobs):
     """No job without a record, but those whose library opens files by itself."""
     unseen = [job.rule for words, job in jobs if job.opened is None and words[1:2] == ("-m",)]
     assert unseen == [], "if made by another command than `make test`: rm -r runs/tests, make test"
+
+
+def test_every_job_is_a_fork(jobs):
+    """None imports the libraries anew, because of a variable of its own say."""
+    alone = [job.rule for words, job in jobs if words[1:2] == ("-m",) and not job.fork]
+    assert alone == [] or not hasattr(os, "pidfd_open")
 
 
 def test_what_a_job_opens_is_declared(jobs):

@@ -23,6 +23,7 @@ from smallsat.workflow.changed_results import (
     noted,
     told,
 )
+from smallsat.workflow.fork_server import begin
 from smallsat.workflow.isolation import isolated
 from smallsat.workflow.one_build import announced, held
 
@@ -171,6 +172,9 @@ def noting(finished: Callable[..., Awaitable[None]]) -> Callable[..., Awaitable[
 def main() -> None:
     """Run Snakemake with the words of this call."""
     gc.set_threshold(OBJECTS)
+    os.environ.update(announced())
+    # Imports while Snakemake does, on another core.
+    begin()
     from snakemake import cli
     from snakemake.persistence.file import FilePersistence
     from snakemake.workflow import Workflow
@@ -183,7 +187,6 @@ def main() -> None:
     FilePersistence.finished = noting(FilePersistence.finished)
     # Parameters of rules are text here; Snakemake would import pandas to see that none is a table.
     FilePersistence._serialize_param_pandas = FilePersistence._serialize_param_builtin
-    os.environ.update(announced())
     cli.main()
 
 

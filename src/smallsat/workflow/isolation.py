@@ -19,6 +19,8 @@ from pathlib import Path
 _FOREIGN = (
     "PYTHON", "JUPYTER", "IPYTHON", "MPL", "MATPLOTLIB", "NUMBA", "PAPERMILL", "OPENBLAS", "GOTO",
 )  # fmt: skip
+# Libraries that have a number of threads; Snakemake sets all of them for its jobs.
+_THREADED = ("OMP_NUM", "OPENBLAS_NUM", "GOTO_NUM", "MKL_NUM", "NUMEXPR_NUM", "VECLIB_MAXIMUM")
 # OpenBLAS's name of the kernel, the instructions that it needs, and where Linux lists those.
 KERNEL, _NEEDED, _PROCESSOR = "Haswell", {"avx2", "fma"}, Path("/proc/cpuinfo")
 
@@ -57,8 +59,9 @@ def isolated(environment: Mapping[str, str], cache: Path) -> dict[str, str]:
         "MPLCONFIGDIR": str(cache / "matplotlib"),
         "XDG_CACHE_HOME": str(cache),
         # One process a core, each on one thread: results do not depend on the number of cores.
-        "OMP_NUM_THREADS": "1",
-        "OPENBLAS_NUM_THREADS": "1",
+        **{f"{name}_THREADS": "1" for name in _THREADED},
+        # Nor a thread of Arrow's allocator: a process is forked from one that has no other.
+        "JE_ARROW_MALLOC_CONF": "background_thread:false",
         **({"OPENBLAS_CORETYPE": kernel} if kernel else {}),
     }
 

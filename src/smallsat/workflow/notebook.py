@@ -21,6 +21,8 @@ def main(arguments: argparse.Namespace) -> None:
     warnings.filterwarnings("ignore", module="zmq")
     import papermill
 
+    from smallsat.workflow.kernel import Kernel
+
     try:
         papermill.execute_notebook(
             arguments.notebook,
@@ -28,6 +30,7 @@ def main(arguments: argparse.Namespace) -> None:
             parameters=arguments.parameters,
             progress_bar=False,
             kernel_name="python3",
+            kernel_manager_class=Kernel,
         )
     except papermill.PapermillExecutionError as error:
         if error.ename == "InputError":
