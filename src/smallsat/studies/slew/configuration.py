@@ -107,6 +107,13 @@ class Environment(Part):
     density_factors: Several[Positive]
 
 
+class ControllerSearch(Part):
+    """Stiffness and damping on a grid, and from how many of its points the nearest is sought."""
+
+    grid: Annotated[Integer, Interval(ge=3, le=200)]
+    starts: Annotated[Integer, Interval(ge=1, le=9)]
+
+
 class Numerics(Part):
     """Smoothing of the cost is in torque limits; held is the control of a flown plan."""
 
@@ -117,6 +124,7 @@ class Numerics(Part):
     starts: Annotated[Integer, Interval(ge=1, le=1000)]
     seed: Seed
     held_intervals: Annotated[Integer, Interval(ge=20, le=2000)]
+    controller_search: ControllerSearch
 
 
 class Tracking(Part):

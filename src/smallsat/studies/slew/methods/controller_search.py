@@ -12,14 +12,12 @@ import pandas as pd
 
 from smallsat.dynamics.compiled import compiled
 from smallsat.evidence.ledger import Ledger
+from smallsat.studies.slew.configuration import ControllerSearch
 from smallsat.studies.slew.parameters import Parameters
 
 LAWS = ("sin(e/2)", "e/2", "2 tan(e/4)")
 HOLDS_S = (0.0, 0.5, 1.0, 2.0)
 STEP = 0.02
-GRID = 60
-# Grid points from which the nearest controller is sought further.
-STARTS = 4
 # Ranges of sqrt(stiffness), rad/s, and of damping over twice that; wide around 0.13 and 1.
 FREQUENCIES = (0.04, 0.5)
 DAMPINGS = (0.3, 3.0)
@@ -118,7 +116,7 @@ def misses(
     return (found - printed[:, 0]) / printed[:, 1]
 
 
-def search(parameters: Parameters, printed: np.ndarray) -> pd.DataFrame:
+def search(parameters: Parameters, printed: np.ndarray, numerics: ControllerSearch) -> pd.DataFrame:
     """For each law and hold: the controller that comes nearest to the printed values.
 
     Three questions a row: all values but the 38.9 %; all values of 90 deg with it; all of both
@@ -130,8 +128,9 @@ def search(parameters: Parameters, printed: np.ndarray) -> pd.DataFrame:
         "90 deg, its peak included": [0, 1, 2, 3],
         "all, the peak of 90 deg included": list(range(8)),
     }
-    frequencies = np.geomspace(*FREQUENCIES, GRID)
-    dampings = np.geomspace(*DAMPINGS, GRID)
+    frequencies = np.geomspace(*FREQUENCIES, numerics.grid)
+    dampings = np.geomspace(*DAMPINGS, numerics.grid)
+    width = float(np.log(FREQUENCIES[1] / FREQUENCIES[0])) / numerics.grid
     rows = []
     for (law, name), hold in product(enumerate(LAWS), HOLDS_S):
         grid = {
@@ -139,9 +138,12 @@ def search(parameters: Parameters, printed: np.ndarray) -> pd.DataFrame:
             for wn, zeta in [*product(frequencies, dampings), DOCUMENT]
         }
         for question, index in chosen.items():
-            starts = sorted(grid, key=lambda key: float(grid[key][index].max()))[:STARTS]
+            starts = sorted(grid, key=lambda key: float(grid[key][index].max()))[: numerics.starts]
             wn, zeta = min(
-                (_refined(parameters, printed, *start, law, hold, index) for start in starts),
+                (
+                    _refined(parameters, printed, *start, law, hold, index, width)
+                    for start in starts
+                ),
                 key=lambda gains: float(
                     np.abs(misses(parameters, printed, gains[0], gains[1], law, hold))[index].max()
                 ),
@@ -165,7 +167,7 @@ def search(parameters: Parameters, printed: np.ndarray) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def _refined(parameters, printed, wn, zeta, law, hold, index) -> tuple[float, float]:
+def _refined(parameters, printed, wn, zeta, law, hold, index, width) -> tuple[float, float]:
     """Shrinking pattern search around a grid point, on the logarithms of both gains."""
     best = np.log([wn, zeta])
 
@@ -173,7 +175,7 @@ def _refined(parameters, printed, wn, zeta, law, hold, index) -> tuple[float, fl
         wn, zeta = (float(np.exp(log)) for log in place)
         return float(np.abs(misses(parameters, printed, wn, zeta, law, hold))[index].max())
 
-    value, width = worst(best), np.log(FREQUENCIES[1] / FREQUENCIES[0]) / GRID
+    value = worst(best)
     while width > 1e-5:
         places = [best + width * np.array(way) for way in product((-1, 0, 1), repeat=2)]
         scores = [worst(place) for place in places]

@@ -10,4 +10,6 @@ from smallsat.studies.slew.parameters import Parameters
 def run(step: Step[Configuration]) -> Tables:
     """Search them."""
     printed = printed_values(Ledger.read(step.published / "values.csv"))
-    return {"controllers.csv": search(Parameters.from_section(step.section), printed)}
+    parameters = Parameters.from_section(step.section)
+    found = search(parameters, printed, step.section.numerics.controller_search)
+    return {"controllers.csv": found}
