@@ -31,6 +31,8 @@ def main(arguments: argparse.Namespace) -> None:
             progress_bar=False,
             kernel_name="python3",
             kernel_manager_class=Kernel,
+            # Asked to end by itself, one of ten does not and is waited for.
+            shutdown_kernel="immediate",
         )
     except papermill.PapermillExecutionError as error:
         if error.ename == "InputError":
