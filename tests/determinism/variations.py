@@ -59,7 +59,7 @@ class Circumstances:
             "time zone": self.time_zone,
             "user": str(self.user),
             "umask": f"{self.umask:04o}",
-            "hash seed": "random in each process",
+            "hash seed": "random in each build",
             "file order": "shuffled by disorderfs" if self.shuffled else "the disk's",
             "compiled loops": "from the cache" if self.compiled else "compiled anew",
             "OpenBLAS kernel": self.kernel or KERNEL,

@@ -13,6 +13,7 @@ reads the sources as they are.
 
 import atexit
 import ctypes
+import gc
 import json
 import os
 import secrets
@@ -22,6 +23,7 @@ import socket
 import struct
 import subprocess
 import sys
+import tempfile
 import traceback
 from collections.abc import Mapping
 from contextlib import suppress
@@ -164,6 +166,8 @@ def _become(request: dict[str, Any]) -> None:
     if "JPY_PARENT_PID" in os.environ:
         # A kernel ends with its parent.
         os.environ["JPY_PARENT_PID"] = str(os.getppid())
+    # Noted by who asked for it first.
+    tempfile.tempdir = None
     os.chdir(request["folder"])
     os.umask(request["umask"])
     sys.argv, sys.orig_argv = request["argv"], request["orig_argv"]
@@ -230,6 +234,8 @@ class Server:
             with suppress(OSError), connection:
                 connection.sendall(b"null\n")
             return False
+        # The forks' searches for garbage need not look through the libraries.
+        gc.freeze()
         server = os.getpid()
         process = os.fork()
         if not process:
@@ -264,6 +270,7 @@ class Server:
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
     Server(int(sys.argv[1]), int(sys.argv[2])).serve()
     # Only a fork comes here. The names of this file are not the job's.
     from smallsat.__main__ import main
