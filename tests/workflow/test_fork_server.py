@@ -12,7 +12,7 @@ import nbformat
 import psutil
 import pytest
 
-from smallsat.workflow.fork_server import ADDRESS, LIBRARIES
+from smallsat.workflow.fork_server import ADDRESS, LIBRARIES, begin
 from smallsat.workflow.isolation import isolated
 
 # A build that does nothing but have a server.
@@ -133,6 +133,18 @@ def test_a_server_of_another_user_is_not_asked(build):
     code = "import os; os.getuid = lambda: 12345; from smallsat.workflow.fork_server import forked"
     call = [sys.executable, "-c", f"{code}; print(forked())"]
     assert subprocess.check_output(call, env=variables, text=True) == "None\n"
+
+
+def test_where_a_sandbox_refuses_there_is_no_server(monkeypatch):
+    """Jobs then start by themselves."""
+
+    def refused(process):
+        raise PermissionError
+
+    monkeypatch.setattr(os, "pidfd_open", refused)
+    monkeypatch.delenv(ADDRESS, raising=False)
+    begin()
+    assert ADDRESS not in os.environ
 
 
 def test_who_is_killed_takes_the_fork_along(waiting):

@@ -79,8 +79,11 @@ def _is_own(connection: socket.socket) -> bool:
 
 
 def begin() -> None:
-    """Start the server of this build, and tell its jobs; where Linux is not, there is none."""
-    if not hasattr(os, "pidfd_open"):
+    """Start the server of this build, and tell its jobs; where there is no pidfd, there is none."""
+    try:
+        os.close(os.pidfd_open(os.getpid()))
+    except (AttributeError, OSError):
+        # Another system than Linux, an old one, or a sandbox that refuses it.
         return
     os.environ[ADDRESS] = secrets.token_hex(16)
     # Who asks before the server has started waits for it.

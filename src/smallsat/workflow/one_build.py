@@ -85,6 +85,9 @@ def end_with_build() -> None:
         watched = os.pidfd_open(int(build))
     except ProcessLookupError:
         os._exit(1)
+    except OSError:
+        # A sandbox refuses it, or the system is old.
+        return
 
     def watch() -> None:
         select.select([watched], [], [])
