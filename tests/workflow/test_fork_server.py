@@ -27,10 +27,18 @@ VARIABLES = isolated(os.environ, Path(__file__).parents[2] / ".cache")
 # What a process can see of itself.
 LOOK = """
 import json, os, pathlib, sys
+import matplotlib, numpy, pandas
+from pandas._config.config import _registered_options
 seen = {
     "parent": os.getppid(), "folder": os.getcwd(), "umask": os.umask(0), "argv": sys.argv[2:3],
     "temporary": os.environ["TMPDIR"], "name": __name__, "path": sys.path,
+    "numpy": numpy.get_printoptions(),
+    "pandas": {name: repr(pandas.get_option(name)).lower() for name in _registered_options},
+    "matplotlib": {name: repr(value) for name, value in matplotlib.rcParams.items()},
+    "shown": repr(pandas.DataFrame({f"a long name of column {n}": [n] for n in range(15)})),
 }
+import matplotlib.pyplot
+seen["backend"] = matplotlib.get_backend()
 pathlib.Path("seen.json").write_text(json.dumps(seen))
 """
 
@@ -97,7 +105,7 @@ def look(folder, variables):
 
 
 def test_a_fork_is_as_the_process_that_waits(build, tmp_path):
-    """Folder, umask, words, variables and path are those of a process without a server."""
+    """Folder, umask, words, variables, path, what libraries are set to; upper case aside."""
     server, variables = build
     alone = {name: value for name, value in variables.items() if name != ADDRESS}
     fork, own = look(tmp_path, variables), look(tmp_path, alone)

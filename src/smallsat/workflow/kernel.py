@@ -24,9 +24,22 @@ def main(arguments: argparse.Namespace) -> None:
     sys.modules["debugpy"] = None  # type: ignore[assignment]
     from ipykernel.kernelapp import launch_new_instance
 
+    _settle()
     # Read as the module is imported, which may have been in another process.
     parent = os.environ.get("JPY_PARENT_PID", "0")
     launch_new_instance(argv=[*arguments.words, f"--IPKernelApp.parent_handle={parent}"])
+
+
+def _settle() -> None:
+    """Settle what libraries that a fork has already would have, had they been imported here.
+
+    As it is imported, pandas asks whether it is in a notebook, and matplotlib which backend a
+    kernel shows its figures by.
+    """
+    if pandas := sys.modules.get("pandas"):
+        pandas.set_option("display.max_columns", 20)
+    if matplotlib := sys.modules.get("matplotlib"):
+        matplotlib.rcParams["backend"] = "module://matplotlib_inline.backend_inline"
 
 
 class Client(AsyncKernelClient):
