@@ -12,10 +12,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from random import Random
 
+import psutil
+
 from tests.compare_builds import results
 from tests.faults.builds import Build
 
 DAY_S = 86400
+NO_JOB = "nothing: no job ran"
 
 
 @dataclass(frozen=True)
@@ -43,13 +46,23 @@ class Fault:
     beside: bool = False
 
 
+def _awaited(
+    build: Build, found: Callable[[], list[psutil.Process]], least: int
+) -> list[psutil.Process]:
+    """Processes of a build, once there are so many; none if it ends, or a minute does, before."""
+    deadline = time.monotonic() + 60
+    while len(processes := found()) < least:
+        if build.shell.poll() is not None or time.monotonic() > deadline:
+            return []
+        time.sleep(0.02)
+    return processes
+
+
 def kill_worker(build: Build, random: Random) -> str:
     """SIGKILL to one job that runs now."""
-    deadline = time.monotonic() + 60
-    while not (workers := build.workers()):
-        if build.shell.poll() is not None or time.monotonic() > deadline:
-            return "nothing: no job ran"
-        time.sleep(0.02)
+    workers = _awaited(build, build.workers, 1)
+    if not workers:
+        return NO_JOB
     worker = random.choice(workers)
     hit = " ".join(worker.cmdline()[3:6]).removeprefix("../../")
     worker.kill()
@@ -58,11 +71,9 @@ def kill_worker(build: Build, random: Random) -> str:
 
 def kill_fork(build: Build, random: Random) -> str:
     """SIGKILL to the server of forks or to one of them, while a job runs."""
-    deadline = time.monotonic() + 60
-    while len(forks := build.forks()) < 2:
-        if build.shell.poll() is not None or time.monotonic() > deadline:
-            return "nothing: no job ran"
-        time.sleep(0.02)
+    forks = _awaited(build, build.forks, 2)
+    if not forks:
+        return NO_JOB
     fork = random.choice(forks)
     hit = "a fork" if fork.parent() in forks else "the server of forks"
     fork.kill()

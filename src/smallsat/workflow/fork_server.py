@@ -78,12 +78,18 @@ def _is_own(connection: socket.socket) -> bool:
     return bool(user == os.getuid())
 
 
-def begin() -> None:
-    """Start the server of this build, and tell its jobs; where there is no pidfd, there is none."""
+def possible() -> bool:
+    """Whether a process can be watched: not beside Linux, on an old one and in some sandboxes."""
     try:
         os.close(os.pidfd_open(os.getpid()))
     except (AttributeError, OSError):
-        # Another system than Linux, an old one, or a sandbox that refuses it.
+        return False
+    return True
+
+
+def begin() -> None:
+    """Start the server of this build, where one is possible, and tell its jobs."""
+    if not possible():
         return
     os.environ[ADDRESS] = secrets.token_hex(16)
     # Who asks before the server has started waits for it.
