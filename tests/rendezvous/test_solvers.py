@@ -27,6 +27,7 @@ from smallsat.studies.rendezvous.guidance.controller import (
 from smallsat.studies.rendezvous.guidance.phase_programs import (
     BOUNDS,
     PLANES,
+    bound_count,
     empty_program,
     shape,
     with_bounds,
@@ -189,7 +190,8 @@ def test_programs_in_lanes_end_as_alone(law, limit):
         states[1], states[4], states[6] = 1e-3 * states[1], np.nan, 30.0 * states[6]
         together = together_for(max(law.horizons))
         for lane, state in enumerate(states):
-            bounds, _ = write_lane(record, phase, state, 0.0, together, lane)
+            write_lane(record, phase, state, 0.0, together, lane)
+        bounds = bound_count(record, phase)
         rows = solve_together(
             with_bounds(together.programs, bounds), stages, together.scaled, together.work,
             TOLERANCE, limit, together.ends,

@@ -131,7 +131,8 @@ def test_the_elliptic_prediction_foresees_where_plans_end(section, by_name, star
         record = settings([law])[0]
         memory, command = memory_for(law.horizons[0]), np.zeros(3)
         next_control(record, 0, state, 0.0, memory, command)
-        planned = memory.work.states[law.horizons[0], :3] * record["scales"][0, :3]
+        end = memory.together.work.states[law.horizons[0], :3, 0]
+        planned = end * record["scales"][0, :3]
         missed[model] = np.linalg.norm(_flown_plan(law, motion, state, memory.plan) - planned)
     assert missed[YAMANAKA_ANKERSEN] < 0.1 * missed[CLOHESSY_WILTSHIRE]
 

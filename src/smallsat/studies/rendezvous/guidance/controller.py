@@ -20,7 +20,6 @@ from smallsat.optimal_control.riccati_interior_point import (
     Program,
     Solution,
     Workspace,
-    solve,
     solve_together,
     workspace,
 )
@@ -28,6 +27,7 @@ from smallsat.studies.rendezvous.guidance.law import DISTANCE, DOCKING, RENDEZVO
 from smallsat.studies.rendezvous.guidance.phase_programs import (
     BOUNDS,
     PLANES,
+    bound_count,
     empty_program,
     lane_of,
     with_bounds,
@@ -40,35 +40,15 @@ ITERATION_LIMIT = 100
 SOFTENED = 1e-5  # scaled excess of a hard row that counts as having given way
 
 
-class Memory(NamedTuple):
-    """What the controller writes on, for horizons of up to N stages.
-
-    Attributes
-    ----------
-    program, work
-        The program of a step, and the solver's workspace.
-    scaled
-        The state in units of the law's scales, (6,).
-    plan
-        Controls of the phase's last solved program, (N, 3), m/s.
-    remaining
-        How many of them, at the end of the plan, are still to come, (1,). A phase begins with none.
-    """
-
-    program: Program
-    work: Workspace
-    scaled: np.ndarray
-    plan: np.ndarray
-    remaining: np.ndarray
-
-
 class Together(NamedTuple):
-    """What is written on to solve the programs of several states at once.
+    """What is written on to solve the programs of several states at once, in lanes.
 
     Attributes
     ----------
-    programs, work, scaled
-        As in `Memory`, with a last axis more, of the lanes.
+    programs, work
+        The programs of a step, and the solver's workspace, with a last axis more, of the lanes.
+    scaled
+        The states in units of the law's scales, (6, LANES).
     ends
         Status and iterations of each, (2, LANES).
     """
@@ -77,6 +57,24 @@ class Together(NamedTuple):
     work: Workspace
     scaled: np.ndarray
     ends: np.ndarray
+
+
+class Memory(NamedTuple):
+    """What the controller of one manoeuvre writes on, for horizons of up to N stages.
+
+    Attributes
+    ----------
+    together
+        Its program, in every lane.
+    plan
+        Controls of the phase's last solved program, (N, 3), m/s.
+    remaining
+        How many of them, at the end of the plan, are still to come, (1,). A phase begins with none.
+    """
+
+    together: Together
+    plan: np.ndarray
+    remaining: np.ndarray
 
 
 class Control(NamedTuple):
@@ -98,16 +96,9 @@ class Control(NamedTuple):
     outside: bool
 
 
-@compiled
-def memory_for(stages):
+def memory_for(stages: int) -> Memory:
     """Return a `Memory` for horizons of up to that many stages."""
-    return Memory(
-        empty_program(stages),
-        workspace(stages, PLANES, BOUNDS),
-        np.zeros(STATES),
-        np.zeros((stages, CONTROLS)),
-        np.zeros(1, np.int64),
-    )
+    return Memory(together_for(stages), np.zeros((stages, CONTROLS)), np.zeros(1, np.int64))
 
 
 def together_for(stages: int) -> Together:
@@ -147,12 +138,13 @@ def next_control(law, phase, state, time, memory, command):
     -------
     Control
     """
-    stages = law.horizons[phase]
-    program, outside = write_program(law, phase, state, time, memory.program)
-    _scale(law, phase, state, memory.scaled)
-    solution = solve(program, stages, memory.scaled, memory.work, TOLERANCE, ITERATION_LIMIT)
-    softened = _take(law, phase, solution, memory.plan, memory.remaining, command)
-    return Control(solution.status, solution.iterations, softened, outside)
+    for lane in range(1, LANES):
+        write_lane(law, phase, state, time, memory.together, lane)
+    outside = write_lane(law, phase, state, time, memory.together, 0)
+    rows = solve_lanes(law, phase, memory.together)
+    return control_of_lane(
+        law, phase, memory.together, 0, rows, outside, memory.plan, memory.remaining, command
+    )
 
 
 @compiled
@@ -161,12 +153,12 @@ def write_lane(law, phase, state, time, together, lane):
 
     Returns
     -------
-    int, bool
-        Number of its rows on components, and whether a constraint is violated at the start.
+    bool
+        Whether a constraint is violated at the start.
     """
-    program, outside = write_program(law, phase, state, time, lane_of(together.programs, lane))
+    _, outside = write_program(law, phase, state, time, lane_of(together.programs, lane))
     _scale(law, phase, state, together.scaled[:, lane])
-    return len(program.components), outside
+    return outside
 
 
 @compiled
@@ -177,17 +169,17 @@ def _scale(law, phase, state, scaled):
 
 
 @compiled
-def solve_lanes(stages, bounds, together):
-    """Solve all lanes; return their number of rows on states."""
+def solve_lanes(law, phase, together):
+    """Solve all lanes, of the shape that a law's phase has; return their rows on states."""
     return solve_together(
-        with_bounds(together.programs, bounds), stages, together.scaled, together.work, TOLERANCE,
-        ITERATION_LIMIT, together.ends,
+        with_bounds(together.programs, bound_count(law, phase)), law.horizons[phase],
+        together.scaled, together.work, TOLERANCE, ITERATION_LIMIT, together.ends,
     )  # fmt: skip
 
 
 @compiled
 def control_of_lane(law, phase, together, lane, rows, outside, plan, remaining, command):
-    """Fill `command` from what was found in a lane; as `next_control` would for its state alone."""
+    """Fill `command` from what was found in a lane; arguments and result as of `next_control`."""
     solution = Solution(
         int(together.ends[0, lane]),
         int(together.ends[1, lane]),

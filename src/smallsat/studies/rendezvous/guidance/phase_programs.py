@@ -15,7 +15,7 @@ import numpy as np
 from smallsat.dynamics.compiled import compiled
 from smallsat.dynamics.orbits.yamanaka_ankersen import transition as elliptic_transition
 from smallsat.dynamics.orbits.yamanaka_ankersen import true_anomaly_after
-from smallsat.optimal_control.riccati_interior_point import Program
+from smallsat.optimal_control.riccati_interior_point import STATES, Program
 from smallsat.studies.rendezvous.guidance.law import (
     APPROACH,
     AT_HORIZON,
@@ -50,6 +50,14 @@ def empty_program(stages):
         np.zeros((stages + 1, BOUNDS)),
         np.zeros((stages + 1, BOUNDS)),
     )
+
+
+@compiled
+def bound_count(law, phase):
+    """Return the number of rows on components of the state that a phase's program has."""
+    if phase == RENDEZVOUS:
+        return STATES if law.norm_control_weights[0] > 0.0 else 0
+    return BOUNDS if phase == DOCKING else 0
 
 
 @compiled
@@ -150,12 +158,11 @@ def write_program(law, phase, state, time, program):
     _write_cost(law, phase, time, one_norm, program)
     if phase == RENDEZVOUS:
         outside = _write_keep_out(law, state, time, program)
-        return with_bounds(program, 6 if one_norm else 0), outside
-    outside = _write_corridor(law, phase, state, time, program)
-    if phase == APPROACH:
-        return with_bounds(program, 0), outside
-    too_fast = _write_speed_bound(law, state, program)
-    return with_bounds(program, BOUNDS), outside or too_fast
+    else:
+        outside = _write_corridor(law, phase, state, time, program)
+    if phase == DOCKING:
+        outside = _write_speed_bound(law, state, program) or outside
+    return with_bounds(program, bound_count(law, phase)), outside
 
 
 @compiled

@@ -15,10 +15,7 @@ from smallsat.dynamics.compiled import compiled
 from smallsat.dynamics.lanes import LANES
 from smallsat.optimal_control.riccati_interior_point import SOLVED
 from smallsat.studies.rendezvous.guidance.controller import (
-    Memory,
     control_of_lane,
-    memory_for,
-    next_control,
     phase_ended,
     port_distance,
     solve_lanes,
@@ -51,8 +48,6 @@ from smallsat.studies.rendezvous.simulation.pool import (
     serve,
 )
 
-# So many programs are solved sooner one by one than in lanes of which they leave the others empty.
-FEW = 2
 # How the velocity changes of a manoeuvre are added up, by the names of `delta_v.READINGS`: for
 # `Passages`, and the field of `Manoeuvres`.
 NORM, AXES, RESULTANT, PLANES = 0, 1, 2, 3
@@ -211,11 +206,11 @@ def simulate(
     numbers = {key: k for k, key in enumerate(dict.fromkeys(key for row in keys for key in row))}
     shapes = np.array([[numbers[key] for key in row] for row in keys])
     stages = int(settings_of["horizons"].max())
-    alone, together = memory_for(stages), together_for(stages)
+    together = together_for(stages)
     pool = pool_for(len(starts), len(numbers), stages, motion is not None)
     begun = serve(pool, 0, len(starts), len(laws), generators)
     while (pool.waits != IDLE).any():
-        _fly(settings_of, shapes, starts, phases, motion, alone, together, pool, found)
+        _fly(settings_of, shapes, starts, phases, motion, together, pool, found)
         begun = serve(pool, begun, len(starts), len(laws), generators)
     return found
 
@@ -270,15 +265,15 @@ def _nothing_yet(
 
 
 @compiled
-def _fly(laws, shapes, starts, phases, motion, alone, together, pool, found):
+def _fly(laws, shapes, starts, phases, motion, together, pool, found):
     """Fly the manoeuvres of a pool until one ends or its numbers do; fill their rows of `found`.
 
     Parameters
     ----------
     laws, shapes
         `SETTINGS` records, and the number of each law's shape of program in each phase.
-    alone, together
-        Memory for a program that is solved alone, and for those that are solved together.
+    together
+        Memory for the programs that are solved together.
     """
     for slot in range(len(pool.waits)):
         if pool.waits[slot] == BEGINS:
@@ -292,22 +287,14 @@ def _fly(laws, shapes, starts, phases, motion, alone, together, pool, found):
             return
         for k in range(length):
             _look_ahead(laws[pool.law[queue[k]]], pool, queue[k])
-        rows = 0 if length <= FEW else _solve(laws, together, pool, queue[:length])
+        rows = _solve(laws, together, pool, queue[:length])
         for k in range(length):
             slot = queue[k]
             law, phase = laws[pool.law[slot]], pool.phase[slot]
-            if length <= FEW:
-                memory = Memory(
-                    alone.program, alone.work, alone.scaled, pool.plans[slot], pool.remaining[slot]
-                )
-                control = next_control(
-                    law, phase, pool.nominals[slot], pool.time[slot], memory, command
-                )
-            else:
-                control = control_of_lane(
-                    law, phase, together, k, rows, pool.outside[slot], pool.plans[slot],
-                    pool.remaining[slot], command,
-                )  # fmt: skip
+            control = control_of_lane(
+                law, phase, together, k, rows, pool.outside[slot], pool.plans[slot],
+                pool.remaining[slot], command,
+            )  # fmt: skip
             _step(law, motion, control, command, pool, slot, found)
             if pool.phase[slot] > phases[1]:
                 found.docked[pool.manoeuvre[slot]] = True
@@ -391,16 +378,13 @@ def _look_ahead(law, pool, slot):
 @compiled
 def _solve(laws, together, pool, queue):
     """Solve the programs of slots, of one shape, in lanes; return the number of rows on states."""
-    bounds, phase, stages = 0, pool.phase[queue[0]], 0
     for lane in range(LANES):
         # lanes that are left over solve the last program once more
         slot = queue[min(lane, len(queue) - 1)]
-        law = laws[pool.law[slot]]
-        bounds, pool.outside[slot] = write_lane(
-            law, phase, pool.nominals[slot], pool.time[slot], together, lane
-        )
-        stages = law.horizons[phase]
-    return solve_lanes(stages, bounds, together)
+        law, phase, state = laws[pool.law[slot]], pool.phase[slot], pool.nominals[slot]
+        pool.outside[slot] = write_lane(law, phase, state, pool.time[slot], together, lane)
+    # The last of them, whose shape all have.
+    return solve_lanes(law, phase, together)
 
 
 @compiled
