@@ -27,6 +27,7 @@ from smallsat.studies.transfer.methods.direct import (
     Case,
     control_history,
     interval_ends,
+    program_numbers,
     published_guess,
     shooting_program,
 )
@@ -225,7 +226,8 @@ def _ends() -> dict[str, float]:
 
 
 def _shooting():
-    solver = SlsqpSolver(_published_program())
+    numbers = program_numbers(TRANSFER, CASE, SECTION.numerics.steps.as_published)
+    solver = SlsqpSolver(_published_program(), numbers)
     guess = published_guess(CASE, SECTION.guess)
     return lambda: control_history(CASE, solver.solve(guess, SLSQP_TOLERANCE).variables)
 

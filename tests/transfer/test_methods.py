@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import casadi as ca
 import numpy as np
 import pytest
 
@@ -13,6 +14,7 @@ from smallsat.studies.transfer.methods.direct import (
     Case,
     control_history,
     fitted_guess,
+    program_numbers,
     shooting_program,
 )
 from smallsat.studies.transfer.methods.extremals import Found, find_extremals
@@ -50,6 +52,21 @@ def test_hamiltonian_vanishes_along_the_extremal(problem, extremal):
     """Autonomous problem with free final time: H = 0 throughout, to 1e-9."""
     _, table = propagate_extremal(problem, extremal, 200)
     assert table["hamiltonian"].abs().max() < 1e-9
+
+
+@pytest.mark.parametrize("basis", ["global", "local"])
+@pytest.mark.parametrize(("degree", "intervals"), [(2, 1), (4, 4), (6, 16)])
+def test_constraints_in_numbers_are_those_of_the_program(problem, degree, intervals, basis):
+    """Their values to the bit, their Jacobian to 1e-12 of its largest entry."""
+    case = Case(degree, intervals, basis)
+    z = 0.1 + np.random.default_rng(7).uniform(0.5, 1.0, case.size)
+    program = shooting_program(problem, case, 48)
+    x, jacobian = program.variables, ca.jacobian(program.constraints, program.variables)
+    symbolic = ca.Function("g", [x], [program.constraints, jacobian])
+    values, slopes = (output.full() for output in symbolic(z))
+    constraints, derivatives = program_numbers(problem, case, 48)
+    assert np.array_equal(constraints(z), values.ravel())
+    np.testing.assert_allclose(derivatives(z), slopes, atol=1e-12 * np.abs(slopes).max())
 
 
 def test_indirect_collocation_agrees(problem, extremal):

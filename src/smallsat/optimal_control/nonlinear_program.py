@@ -9,6 +9,8 @@ import casadi as ca
 import numpy as np
 from scipy.optimize import minimize
 
+# Map values (n,) of the variables to the constraints (m,), and to their Jacobian (m, n).
+Numbers = tuple[Callable[[np.ndarray], np.ndarray], Callable[[np.ndarray], np.ndarray]]
 # A variable so near a bound counts as on it.
 AT_BOUND = 1e-9
 
@@ -107,21 +109,21 @@ class SlsqpSolver:
     """Sequential quadratic programming with SciPy's SLSQP and exact first derivatives.
 
     The functions are built once; `solve` may be called for many guesses and tolerances.
+
+    Parameters
+    ----------
+    program
+        What is solved.
+    numbers
+        The program's constraints, where there is a faster way to them than by their symbols.
     """
 
-    def __init__(self, program: NonlinearProgram, *, expand: bool = False):
-        x, jacobian = program.variables, program.jacobian
-        if jacobian is None:
-            jacobian = ca.jacobian(program.constraints, x)
-        functions: tuple[ca.Function, ...] = (
-            ca.Function("f", [x], [program.objective]),
-            ca.Function("df", [x], [ca.gradient(program.objective, x)]),
-            ca.Function("g", [x], [program.constraints]),
-            ca.Function("dg", [x], [jacobian]),
-        )
-        if expand:
-            functions = tuple(function.expand() for function in functions)
-        self._objective, self._gradient, self._constraints, self._jacobian = functions
+    def __init__(self, program: NonlinearProgram, numbers: Numbers | None = None):
+        x = program.variables
+        gradient = ca.Function("df", [x], [ca.gradient(program.objective, x)])
+        self._objective = ca.Function("f", [x], [program.objective])
+        self._gradient = lambda z: gradient(z).full().ravel()
+        self._constraints, self._jacobian = numbers or _numbers_of(program)
         self._bounds = list(zip(program.lower, program.upper, strict=True))
 
     def solve(self, guess: np.ndarray, tolerance: float, iterations: int = 1000) -> Solution:
@@ -164,10 +166,9 @@ class SlsqpSolver:
         """Largest constraint error and first-order optimality at an iterate (n,)."""
         lower, upper = np.transpose(self._bounds)
         free = (z > lower + AT_BOUND) & (z < upper - AT_BOUND)
-        gradient = self._gradient(z).full().ravel()[free]
-        jacobian = self._jacobian(z).full()[:, free]
+        gradient, jacobian = self._gradient(z)[free], self._jacobian(z)[:, free]
         multipliers = np.linalg.lstsq(jacobian.T, -gradient, rcond=None)[0]
-        violation = np.max(np.abs(self._constraints(z).full()))
+        violation = np.max(np.abs(self._constraints(z)))
         return float(violation), float(np.max(np.abs(gradient + jacobian.T @ multipliers)))
 
     def _solve(
@@ -181,19 +182,15 @@ class SlsqpSolver:
         result = minimize(
             lambda z: float(self._objective(z)),
             guess,
-            jac=lambda z: self._gradient(z).full().ravel(),
+            jac=self._gradient,
             bounds=self._bounds,
-            constraints={
-                "type": "eq",
-                "fun": lambda z: self._constraints(z).full().ravel(),
-                "jac": lambda z: self._jacobian(z).full(),
-            },
+            constraints={"type": "eq", "fun": self._constraints, "jac": self._jacobian},
             method="SLSQP",
             options={"ftol": tolerance, "maxiter": iterations},
             callback=watch,
         )
         seconds = time.perf_counter() - began
-        violation = float(np.max(np.abs(self._constraints(result.x).full())))
+        violation = float(np.max(np.abs(self._constraints(result.x))))
         return Solution(
             variables=result.x,
             objective=float(result.fun),
@@ -203,6 +200,14 @@ class SlsqpSolver:
             violation=violation,
             seconds=seconds,
         )
+
+
+def _numbers_of(program: NonlinearProgram) -> Numbers:
+    x, jacobian = program.variables, program.jacobian
+    if jacobian is None:
+        jacobian = ca.jacobian(program.constraints, x)
+    g, dg = ca.Function("g", [x], [program.constraints]), ca.Function("dg", [x], [jacobian])
+    return lambda z: g(z).full().ravel(), lambda z: dg(z).full()
 
 
 class IpoptSolver:
@@ -215,6 +220,8 @@ class IpoptSolver:
             "sb": "yes",
             "tol": 1e-10,
             "max_iter": 500,
+            # A permutation towards a large diagonal leaves MUMPS a poor order of elimination.
+            "mumps_permuting_scaling": 0,
         } | options
         symbols = {"x": program.variables, "f": program.objective, "g": program.constraints}
         if program.parameters is not None:

@@ -1,6 +1,7 @@
 """Direct shooting: polynomial control in one or K intervals, as a nonlinear program."""
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any, Literal
 
 import casadi as ca
@@ -9,8 +10,14 @@ import pandas as pd
 from numpy.polynomial import Polynomial
 from scipy.optimize import lsq_linear
 
-from smallsat.optimal_control.nonlinear_program import NonlinearProgram
+from smallsat.optimal_control.nonlinear_program import NonlinearProgram, Numbers
 from smallsat.optimal_control.runge_kutta import integrate, step_function
+from smallsat.optimal_control.shooting import (
+    Interval,
+    ShootingArc,
+    end_conditions,
+    shooting_numbers,
+)
 from smallsat.studies.transfer.configuration import Guess
 from smallsat.studies.transfer.model.problem import STATES, TransferProblem
 from smallsat.studies.transfer.model.trajectory import ControlHistory
@@ -39,6 +46,11 @@ class Case:
     def size(self) -> int:
         """Number of unknowns: interior states, coefficients, final time."""
         return 5 * (self.intervals - 1) + (self.degree + 1) * self.intervals + 1
+
+    @property
+    def scale(self) -> float:
+        """Share of t_f in the rate of the polynomials' variable: all of it, or an interval's."""
+        return 1.0 if self.basis == "global" else 1.0 / self.intervals
 
     def split(self, z: Any) -> tuple[Any, Any, Any]:
         """Interior states (5 (K-1),), coefficients ((N+1) K,), highest power first, and t_f."""
@@ -74,19 +86,12 @@ def shooting_program(
     interior, coefficients, final_time = case.split(z)
     nodes = ca.reshape(ca.vertcat(ca.DM(problem.initial_state), interior), 5, count)
     coefficients = ca.reshape(coefficients, degree + 1, count)
-
-    # dx/ds on an interval: the global tau has rate t_f / 2, the local one t_f / (2 K).
-    def rate(s: Any, x: Any, p: Any) -> list[Any]:
-        beta = polynomial(p[:-1], s)
-        return [p[-1] / 2 * value for value in problem.state_rate(x, ca.sin(beta), ca.cos(beta))]
-
-    step = step_function(rate, 5, degree + 2)
-    scale = 1.0 if case.basis == "global" else 1.0 / count
+    step, share = _step(problem, degree), max(1, steps // count)
     constraints: list[Any] = []
     for k in range(count):
         start, end = interval_ends(case, k)
-        p = ca.vertcat(coefficients[:, k], scale * final_time)
-        state = integrate(step, nodes[:, k], p, start, end, max(1, steps // count))
+        p = ca.vertcat(coefficients[:, k], case.scale * final_time)
+        state = integrate(step, nodes[:, k], p, start, end, share)
         if k < count - 1:
             constraints.append(state - nodes[:, k + 1])
             if continuous:
@@ -100,6 +105,51 @@ def shooting_program(
     lower = np.concatenate([np.full(n, b[0]) for n, b in zip(sizes, bounds, strict=True)])
     upper = np.concatenate([np.full(n, b[1]) for n, b in zip(sizes, bounds, strict=True)])
     return NonlinearProgram(z, final_time, ca.vertcat(*constraints), lower, upper)
+
+
+def _step(problem: TransferProblem, degree: int) -> ca.Function:
+    """One step of a flight; the parameters are the control's coefficients and `Case.scale` t_f."""
+
+    # dx/ds on an interval: the global tau has rate t_f / 2, the local one t_f / (2 K).
+    def rate(s: Any, x: Any, p: Any) -> list[Any]:
+        beta = polynomial(p[:-1], s)
+        return [p[-1] / 2 * value for value in problem.state_rate(x, ca.sin(beta), ca.cos(beta))]
+
+    return step_function(rate, 5, degree + 2)
+
+
+@lru_cache(maxsize=8)
+def _arc(problem: TransferProblem, degree: int) -> ShootingArc:
+    return ShootingArc(_step(problem, degree))
+
+
+@lru_cache(maxsize=8)
+def _end(problem: TransferProblem) -> ca.Function:
+    return end_conditions(5, problem.terminal_error)
+
+
+def program_numbers(problem: TransferProblem, case: Case, steps: int) -> Numbers:
+    """The constraints of `shooting_program`, without continuity, to the bit, and their Jacobian."""
+    count, width = case.intervals, case.degree + 1
+    share, first = max(1, steps // count), 5 * (count - 1)
+    everything = np.eye(5 + case.size)
+    everything[-1] *= case.scale
+    pieces = []
+    for k in range(count):
+        # Node, coefficients and final time, by what is known at the start and the unknowns.
+        coefficients = range(5 + first + width * k, 5 + first + width * (k + 1))
+        taken = everything[[*range(5 * k, 5 * k + 5), *coefficients, -1]]
+        start, end = interval_ends(case, k)
+        h = (end - start) / share
+        pieces.append(
+            Interval(
+                matrix=taken[:, 5:],
+                offset=taken[:, :5] @ problem.initial_state,
+                starts=start + np.arange(share) * h,
+                lengths=np.full(share, h),
+            )
+        )
+    return shooting_numbers(_arc(problem, case.degree), pieces, _end(problem))
 
 
 def polynomial(coefficients: Any, s: Any) -> Any:

@@ -36,6 +36,7 @@ from smallsat.studies.transfer.methods.direct import (
     control_history,
     fitted_guess,
     largest_coefficient,
+    program_numbers,
     published_guess,
     shooting_program,
 )
@@ -184,7 +185,8 @@ def as_published(section: Configuration, intervals: int) -> tuple[Solved, pd.Dat
             state_bounds=bounds.interior_state,
             time_bounds=bounds.final_time_multiple if multiple else bounds.final_time_single,
         )
-        solution = SlsqpSolver(program).solve_until(
+        numbers = program_numbers(problem, case, numerics.steps.as_published)
+        solution = SlsqpSolver(program, numbers).solve_until(
             published_guess(case, section.guess), rule, numerics.as_published_tolerance
         )
         paths.append(_path(case, solution))
@@ -267,7 +269,8 @@ def multistart(section: Configuration) -> tuple[Solved, pd.DataFrame]:
             for name in ("as_published", "converged")
         }
         coarse = SlsqpSolver(
-            shooting_program(problem, case, steps["as_published"], **bounds), expand=True
+            shooting_program(problem, case, steps["as_published"], **bounds),
+            program_numbers(problem, case, steps["as_published"]),
         )
         found: list[Solution] = []
         asked = numerics.multistart

@@ -3,6 +3,7 @@
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import casadi as ca
@@ -11,7 +12,14 @@ import pandas as pd
 from scipy.integrate import solve_ivp
 from scipy.optimize import least_squares
 
+from smallsat.optimal_control.nonlinear_program import Numbers
 from smallsat.optimal_control.runge_kutta import step_function
+from smallsat.optimal_control.shooting import (
+    Interval,
+    ShootingArc,
+    end_conditions,
+    shooting_numbers,
+)
 from smallsat.studies.transfer.configuration import Guess
 from smallsat.studies.transfer.model.problem import COSTATES, STATES, TransferProblem
 from smallsat.studies.transfer.model.trajectory import error_magnitude
@@ -139,9 +147,9 @@ def solve_extremal(
     began = time.perf_counter()
     try:
         result = least_squares(
-            lambda z: residual(z).full().ravel(),
+            residual,
             start,
-            jac=lambda z: jacobian(z).full(),
+            jac=jacobian,
             method="trf",
             xtol=1e-15,
             ftol=1e-15,
@@ -224,29 +232,42 @@ def primer_angle(costate: np.ndarray) -> np.ndarray:
     return np.mod(np.arctan2(costate[2], costate[3]), 2 * np.pi)
 
 
-def _shooting_functions(
-    problem: TransferProblem, intervals: int, steps: StepLengths
-) -> tuple[ca.Function, ca.Function]:
+def _shooting_functions(problem: TransferProblem, intervals: int, steps: StepLengths) -> Numbers:
+    """Residual (10 K - 4,) of unknowns (10 K - 4,), and its Jacobian."""
+    known = len(problem.initial_state)
+    # Node k and the final time, by what is known at the start and the unknowns.
+    everything = np.eye(10 * intervals + 1)
+    pieces = []
+    for k, lengths in enumerate(steps):
+        taken = everything[[*range(10 * k, 10 * k + 10), -1]]
+        pieces.append(
+            Interval(
+                matrix=taken[:, known:],
+                offset=taken[:, :known] @ problem.initial_state,
+                starts=np.zeros(len(lengths)),
+                lengths=np.array(lengths),
+            )
+        )
+    return shooting_numbers(_arc(problem), pieces, _end(problem))
+
+
+@lru_cache(maxsize=8)
+def _arc(problem: TransferProblem) -> ShootingArc:
+    """Flight of an extremal (10,); the parameter is its final time, steps are fractions of it."""
+
     def rate(_: Any, y: Any, p: Any) -> list[Any]:
         return [p * value for value in problem.extremal_rate(y[:5], y[5:])]
 
-    step = step_function(rate, 10, 1)
-    unknown = ca.MX.sym("z", 10 * intervals - 4)
-    final_time = unknown[-1]
-    nodes = ca.reshape(ca.vertcat(ca.DM(problem.initial_state), unknown[:-1]), 10, intervals)
-    residual = []
-    for k in range(intervals):
-        end = nodes[:, k]
-        for length in steps[k]:
-            end = step(end, final_time, 0.0, length)
-        if k < intervals - 1:
-            residual.append(end - nodes[:, k + 1])
-            continue
+    return ShootingArc(step_function(rate, 10, 1))
+
+
+@lru_cache(maxsize=8)
+def _end(problem: TransferProblem) -> ca.Function:
+    """What has to vanish at the end (equations 35-37), of state and costate (10,)."""
+
+    def conditions(end: Any) -> list[Any]:
         state, costate = end[:5], end[5:]
-        residual += problem.terminal_error(state)
-        residual += [costate[1], costate[4] - 1.0, problem.hamiltonian(state, costate)]
-    vector = ca.vertcat(*residual)
-    return (
-        ca.Function("residual", [unknown], [vector]),
-        ca.Function("jacobian", [unknown], [ca.jacobian(vector, unknown)]),
-    )
+        free = [costate[1], costate[4] - 1.0, problem.hamiltonian(state, costate)]
+        return [*problem.terminal_error(state), *free]
+
+    return end_conditions(10, conditions)
