@@ -105,11 +105,46 @@ def test_held_control_approaches_the_optimum_from_above():
     pieces = 20
     held = HeldControl(double_integrator((1.0, 1.0), False), pieces)
     times = np.array([0.0, 1.0])
-    guess = held.guess(1.0, times, np.array([[0.0, 0.0], [1.0, 0.0]]), np.zeros((2, 1)))
+    guess = held.guess(times, np.array([[0.0, 0.0], [1.0, 0.0]]), np.zeros((2, 1)))
     solution = IpoptSolver(held.program).solve(guess)
     assert solution.converged
     assert solution.objective == pytest.approx(6.0 / (1.0 - 1.0 / pieces**2), rel=1e-7)
     assert held.controls(solution.variables).shape == (pieces, 1)
+
+
+def test_derivatives_of_a_held_control_are_those_of_its_program():
+    """What is put together from pieces, against CasADi's own of the whole, to 1e-14."""
+    stated = OptimalControlProblem(
+        initial=np.array([0.1, 0.2, 0.3]),
+        controls=2,
+        rate=lambda x, u, t, p: ca.vertcat(
+            x[1] * x[2] + u[0], ca.sin(x[0]) * u[1] + t * x[1], x[0] * u[0] ** 2 * p[0]
+        ),
+        running_cost=lambda x, u, t, p: ca.sqrt(ca.dot(u, u) + p[0]) * (1 + x[0] ** 2),
+        terminal=lambda x, final: ca.vertcat(x[0] ** 2 * x[1], x[2] - final),
+        end_cost=lambda x, final, p: ca.exp(x[0]) * p[0] + x[1] * x[2] * final,
+        state_bounds=np.array([np.full(3, -9.0), np.full(3, 9.0)]),
+        control_bounds=np.array([[-1.0, -1.0], [1.0, 1.0]]),
+        final_time=(1.3, 1.3),
+        parameters=1,
+    )
+    program = HeldControl(stated, 4).program
+    x, p = program.variables, program.parameters
+    factor, factors = ca.MX.sym("lam_f"), ca.MX.sym("lam_g", program.constraints.numel())
+    lagrangian = factor * program.objective + ca.dot(factors, program.constraints)
+    whole = [ca.jacobian(program.constraints, x), ca.triu(ca.hessian(lagrangian, x)[0])]
+    expected = ca.Function("whole", [x, p, factor, factors], whole)
+    jacobian = ca.Function("jacobian", [x, p], [program.jacobian])
+    random = np.random.default_rng(3)
+    z, lam = random.uniform(0.1, 0.9, x.numel()), random.normal(size=factors.numel())
+    first, second = (output.full() for output in expected(z, 0.3, 0.7, lam))
+    np.testing.assert_allclose(jacobian(z, 0.3).full(), first, rtol=0, atol=1e-14)
+    np.testing.assert_allclose(program.hessian(z, 0.3, 0.7, lam).full(), second, rtol=0, atol=1e-14)
+
+
+def test_a_held_control_needs_one_final_time():
+    with pytest.raises(ValueError, match="needs one final time"):
+        HeldControl(double_integrator((1.0, 2.0), False), 4)
 
 
 def test_too_short_a_time_is_not_converged():

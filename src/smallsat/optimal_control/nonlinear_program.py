@@ -30,6 +30,9 @@ class NonlinearProgram:
     jacobian
         That of the constraints, (m, n), where there is a shorter way to it than to differentiate
         all of them by all variables.
+    hessian
+        Likewise of the Lagrangian, its upper triangle (n, n): a function of the variables, the
+        parameters, a factor of the objective and one of each constraint.
     """
 
     variables: Any
@@ -39,6 +42,7 @@ class NonlinearProgram:
     upper: np.ndarray
     parameters: Any = None
     jacobian: Any = None
+    hessian: ca.Function | None = None
 
 
 @dataclass(frozen=True)
@@ -232,6 +236,8 @@ class IpoptSolver:
             inputs = [program.variables, symbols.get("p", ca.SX(0, 1))]
             outputs = [program.constraints, program.jacobian]
             ours["jac_g"] = ca.Function("nlp_jac_g", inputs, outputs, *names)
+        if program.hessian is not None:
+            ours["hess_lag"] = program.hessian
         self._solver = ca.nlpsol("solver", "ipopt", symbols, ours)
 
     def solve(

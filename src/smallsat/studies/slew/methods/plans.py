@@ -185,7 +185,6 @@ def hold(slew: Slew, result: Result, numerics: Numerics) -> HeldPlan:
         method.program, tol=1e-9, max_iter=600, mu_strategy="monotone", mu_init=1e-4
     )
     guess = method.guess(
-        plan.final_time,
         np.r_[0.0, plan.times, plan.final_time],
         np.vstack([stated.initial, plan.states, plan.ends[-1]]),
         np.vstack([plan.controls[0], plan.controls, plan.controls[-1]]),
