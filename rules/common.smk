@@ -1,5 +1,8 @@
 # What these files share: paths, import closures, and how a step of a study becomes one of them.
 
+# Seconds of the rules in the accepted build.
+TOOK = accepted(ROOT / "data/accepted/seconds.csv")
+
 
 def project(path):
     """A file of the project, as seen from the folder of the run."""
@@ -20,6 +23,11 @@ def results(study, *names):
 def sources(command, *modules):
     """Source files that a command runs, so that editing any of them reruns the rule."""
     return [os.path.relpath(path) for path in source_files(command, *modules)]
+
+
+def urgency(rule):
+    """Priority of a rule: the longest job first, so that none begins when all others are done."""
+    return round(TOOK.get(rule, 0))
 
 
 def figure_files(*stems):
@@ -62,7 +70,7 @@ def step(
     part="",
     shard="",
     takes=None,
-    priority=0,
+    priority=None,
     aside=False,
 ):
     """A computing step of a study becomes a rule.
@@ -86,11 +94,12 @@ def step(
     published, accepted, files
         Published and accepted files of the study that it reads, and files of a person's own.
     priority
-        Steps of a higher one start first.
+        Steps of a higher one start first, else those that take longer.
     aside
         Whether it is run only when asked for by its name.
     """
     implementation = f"smallsat.studies.{study}.steps.{runs or name}"
+    rule_name = f"{study}_{name}".replace("-", "_")
     words = [
         *[f"--published {project(f'data/published/{study}')}"] * bool(published),
         *[f"--accepted {project(f'data/accepted/{study}')}"] * bool(accepted),
@@ -102,7 +111,7 @@ def step(
 
     rule:
         name:
-            f"{study}_{name}".replace("-", "_")
+            rule_name
         input:
             sources=sources("smallsat.workflow.run_step", implementation),
             published=published_files(study, *published),
@@ -115,7 +124,7 @@ def step(
             f"logs/{study}/{name}.log",
         benchmark:
             f"logs/{study}/{name}.benchmark.tsv"
-        priority: priority
+        priority: urgency(rule_name) if priority is None else priority
         params:
             study=study,
             step=runs or name,

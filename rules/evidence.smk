@@ -34,6 +34,7 @@ for study in STUDIES:
             f"logs/{study}/verdicts.log",
         benchmark:
             f"logs/{study}/verdicts.benchmark.tsv"
+        priority: urgency(f"{study}_verdicts")
         params:
             study=study,
             published=lambda w, input: os.path.dirname(input.published[0]),

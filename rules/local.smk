@@ -2,7 +2,6 @@
 # that took less than a minute in the accepted build, which a place in a queue would only slow down.
 # The length of shards is the configuration's, and they are what a cluster is for.
 SMALL_S = 60.0
-TOOK = accepted(ROOT / "data/accepted/seconds.csv")
 
 workflow.localrules(
     *[

@@ -25,6 +25,7 @@ for study in STUDIES:
                 f"logs/{study}/{run.name}.log",
             benchmark:
                 f"logs/{study}/{run.name}.benchmark.tsv"
+            priority: urgency(f"{study}_{run.name}".replace("-", "_"))
             params:
                 parameters=as_json(
                     run.given(

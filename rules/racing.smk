@@ -37,8 +37,7 @@ for scenario in SCENARIOS:
         **COURSES,
     )
 
-# The longest job of all: start it first.
-step("racing", "variants", makes=["variants.csv"], priority=100, **COURSES)
+step("racing", "variants", makes=["variants.csv"], **COURSES)
 step("racing", "without_thrust", makes=["without-thrust.csv"], **COURSES)
 step("racing", "simple_guesses", makes=["simple-guesses.csv"], **COURSES)
 step(

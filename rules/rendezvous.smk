@@ -117,7 +117,7 @@ for number in ENSEMBLE:
         accepted=["sets.csv"],
         # The first one starts the build: in a fresh checkout it compiles what every other job that
         # flies then loads, and two that start together would both compile all of it.
-        priority=200 if number == ENSEMBLE[0] else 0,
+        priority=1000 if number == ENSEMBLE[0] else None,
     )
 step(
     "rendezvous",

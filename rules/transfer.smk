@@ -47,8 +47,6 @@ for intervals, name in zip(INTERVALS, TRANSFER_SHARDS, strict=True):
         part=intervals,
         makes=[f"{name}.csv", f"{name}.parquet", f"{name}-path.csv"],
         clock=[f"{name}-seconds.csv"],
-        # The largest part decides when the study is done: start it first.
-        priority=intervals,
     )
 
     step(

@@ -64,6 +64,18 @@ def test_errors_fall_with_the_points(scheme):
     assert many.state < 1e-2 * few.state and many.control < 5e-2 * few.control
 
 
+def test_a_program_is_solved_to_its_tolerance_alone():
+    """On 20 Lobatto points to a control that is off by 4.68e-5, whatever the linear algebra does.
+
+    The point near the solution at which the solver would stop is off by 1e-11, since it leaves a
+    constraint at 2e-10 that only such a control meets.
+    """
+    found = errors("Lobatto", 20)
+    assert found.converged
+    assert found.control == pytest.approx(4.677e-5, rel=1e-3)
+    assert found.state == pytest.approx(1.953e-10, rel=1e-2)
+
+
 def test_steps_turn_as_the_compiled_transition_does():
     """The closed form to rounding, the Runge-Kutta methods by their orders."""
     q = RNG.normal(size=4)

@@ -11,6 +11,9 @@ from scipy.optimize import minimize
 
 # Map values (n,) of the variables to the constraints (m,), and to their Jacobian (m, n).
 Numbers = tuple[Callable[[np.ndarray], np.ndarray], Callable[[np.ndarray], np.ndarray]]
+# MUMPS permutes a matrix towards a large diagonal before it orders the elimination, which leaves a
+# poor order. What it is for, constraints that nearly depend on one another, most programs have not.
+UNPERMUTED: dict[str, Any] = {"mumps_permuting_scaling": 0}
 # A variable so near a bound counts as on it.
 AT_BOUND = 1e-9
 
@@ -224,8 +227,6 @@ class IpoptSolver:
             "sb": "yes",
             "tol": 1e-10,
             "max_iter": 500,
-            # A permutation towards a large diagonal leaves MUMPS a poor order of elimination.
-            "mumps_permuting_scaling": 0,
         } | options
         symbols = {"x": program.variables, "f": program.objective, "g": program.constraints}
         if program.parameters is not None:

@@ -15,7 +15,12 @@ import casadi as ca
 import numpy as np
 
 from smallsat.dynamics.orbits.clohessy_wiltshire import held_input_rows, transition, transition_rows
-from smallsat.optimal_control.nonlinear_program import IpoptSolver, NonlinearProgram, Solution
+from smallsat.optimal_control.nonlinear_program import (
+    UNPERMUTED,
+    IpoptSolver,
+    NonlinearProgram,
+    Solution,
+)
 from smallsat.studies.racing.model.cubesat import CubeSat
 
 # Lowest ring speed, scaled: the direction of a velocity of zero is undefined.
@@ -274,7 +279,7 @@ class CourseProgram:
     def _ipopt(self, **barrier: Any) -> IpoptSolver:
         # Long chains of small blocks: approximate minimum degree orders them best, and steps are
         # refined where their residual asks for it alone.
-        linear_algebra = {"mumps_pivot_order": 0, "min_refinement_steps": 0}
+        linear_algebra = UNPERMUTED | {"mumps_pivot_order": 0, "min_refinement_steps": 0}
         return IpoptSolver(
             self._program[0], expand=True, tol=1e-9, max_iter=150, **linear_algebra, **barrier
         )

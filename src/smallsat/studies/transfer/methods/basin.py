@@ -13,7 +13,7 @@ from scipy.stats import binomtest
 
 from smallsat.evidence.not_converged import NotConverged
 from smallsat.optimal_control.collocation import Collocation, collocation_guess
-from smallsat.optimal_control.nonlinear_program import IpoptSolver
+from smallsat.optimal_control.nonlinear_program import UNPERMUTED, IpoptSolver
 from smallsat.statistics.random_streams import stream
 from smallsat.studies.transfer.configuration import Configuration
 from smallsat.studies.transfer.methods.collocation import extremal_guess, transcription
@@ -129,7 +129,7 @@ def _collocation(
     angle = float(np.abs(np.unwrap(extremal["beta"])).max())
     magnitude = collocation_guess(MESH, final_time, lambda _: largest, lambda _: angle)
     program = transcription(problem, MESH, (0.0, problem.longest_time))
-    solver = IpoptSolver(program, max_iter=MOST_ITERATIONS)
+    solver = IpoptSolver(program, max_iter=MOST_ITERATIONS, **UNPERMUTED)
 
     def end(start: np.ndarray) -> float:
         solution = solver.solve(start)
