@@ -2,6 +2,7 @@
 
 import json
 import os
+import shlex
 import signal
 import subprocess
 import sys
@@ -23,7 +24,9 @@ begin()
 print(os.environ[ADDRESS], flush=True)
 time.sleep(600)
 """
-VARIABLES = isolated(os.environ, Path(__file__).parents[2] / ".cache")
+# As a person has them at a prompt, in an activated environment.
+TYPED = os.environ | {"PS1": "(.venv) $ ", "PS2": "> ", "VIRTUAL_ENV_PROMPT": ".venv"}
+VARIABLES = isolated(TYPED, Path(__file__).parents[2] / ".cache")
 # What a process can see of itself.
 LOOK = """
 import json, os, pathlib, sys
@@ -124,6 +127,22 @@ def test_a_fork_fails_as_its_process_would(build, words):
     own = smallsat(*words, env=variables | {ADDRESS: ""})
     assert fork.communicate() == own.communicate()
     assert fork.returncode == own.returncode != 0
+
+
+def test_a_job_of_an_activated_environment_is_a_fork(build, tmp_path):
+    """Started by a shell at which nobody types, as Snakemake starts it."""
+    server, variables = build
+    file = tmp_path / "kernel.json"
+    words = shlex.join([sys.executable, "-m", "smallsat", "kernel", "--", "-f", str(file)])
+    call = ["bash", "-c", f"set -euo pipefail; {words}; true"]
+    shell = subprocess.Popen(call, env=variables, stderr=subprocess.DEVNULL)
+    try:
+        assert until(file.exists)
+        assert len(server.children()) == 1
+    finally:
+        for process in psutil.Process(shell.pid).children():
+            process.kill()
+        shell.wait()
 
 
 def test_other_variables_are_no_matter_for_a_fork(build, tmp_path):

@@ -54,8 +54,9 @@ LIBRARIES = (
     "casadi",
 )
 # Variables that say who called and where to put what is temporary: no library looks at them as it
-# is imported.
-_CALLER = {"_", "PWD", "OLDPWD", "SHLVL", "TMPDIR", "TMP", "TEMP", "TEMPDIR", WAITS}
+# is imported. An activated environment has a prompt, which the shells of jobs, at which nobody
+# types, take away.
+_CALLER = {"_", "PWD", "OLDPWD", "SHLVL", "PS1", "PS2", "TMPDIR", "TMP", "TEMP", "TEMPDIR", WAITS}
 _CALLER |= {"JPY_PARENT_PID", "JPY_SESSION_NAME"}
 # The option of Linux's prctl that ends a process with its parent.
 _PR_SET_PDEATHSIG = 1
