@@ -5,7 +5,7 @@ from decimal import Decimal, InvalidOperation
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from smallsat.catalogue import study_module
@@ -210,6 +210,10 @@ ODD = [
         "}",
         "':",
         "-",
+        "!",
+        "! 5",
+        "!!str 5",
+        '!!int "5"',
         "!!int",
         "!!float x",
         "!!python/object:os.system",
@@ -237,6 +241,8 @@ fragments = st.one_of(
     max_examples=3000, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 @given(path=st.sampled_from(leaves(PLAIN)), up=st.integers(0, 2), fragment=fragments)
+@example(path=("run",), up=0, fragment="!")
+@example(path=("transfer", "numerics", "seed"), up=0, fragment="! 5")
 def test_whatever_a_file_says_is_taken_as_it_stands_or_refused(tmp_path, path, up, fragment):
     """An odd text at any place of the configuration: never another error, never another meaning."""
     # Sometimes in place of the section that the value stands in.

@@ -58,6 +58,17 @@ _Loader.add_constructor(f"{_TAG}map", _mapping)
 _Loader.add_constructor(f"{_TAG}seq", _sequence)
 
 
+def _refuse_tags(text: str | bytes) -> None:
+    """A tag makes a value what it does not look like, and one without a name is lost."""
+    if (b"!" if isinstance(text, bytes) else "!") not in text:  # type: ignore[operator]
+        return
+    event: Any
+    for event in yaml.parse(text, Loader=_Loader):
+        if tag := getattr(event, "tag", None):
+            problem = f"the tag {tag}; write the value without it, or in quotes"
+            raise yaml.MarkedYAMLError(problem=problem, problem_mark=event.start_mark)
+
+
 def parse_yaml(text: str | bytes, name: str) -> Any:
     """The data of a YAML text: mappings with text keys, lists, texts, numbers, booleans, None.
 
@@ -74,6 +85,7 @@ def parse_yaml(text: str | bytes, name: str) -> Any:
         Naming the line and what is wrong with it.
     """
     try:
+        _refuse_tags(text)
         return yaml.load(text, Loader=_Loader)
     except yaml.MarkedYAMLError as error:
         line = f"line {error.problem_mark.line + 1}: " if error.problem_mark else ""
