@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import numba
+import numpy as np
 import pytest
 
 from smallsat.dynamics import compiled
@@ -118,3 +119,14 @@ def test_without_a_writable_package_the_cache_is_the_users_own(package, monkeypa
     assert call(package) == "2.0 0"
     assert call(package) == "2.0 1"
     assert list(package.glob("smallsat-*/numba-*"))
+
+
+@pytest.mark.parametrize(
+    "function",
+    [lambda a: np.zeros(3)[0] + a[0], lambda a: a[1:], lambda a: a.copy()],
+    ids=["makes an array", "returns a part of one", "returns a copy"],
+)
+def test_arithmetic_makes_no_array(function):
+    """Numba refuses what would need references counted, which arithmetic goes without."""
+    with pytest.raises(numba.errors.TypingError):
+        compiled.compiled_arithmetic(function)(np.ones(3))

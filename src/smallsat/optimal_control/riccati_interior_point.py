@@ -180,18 +180,18 @@ def roll_out(transitions, start, controls, stages, states):
 @compiled_arithmetic
 def _gather(program, control_rows, stages, states, controls, values):
     """Fill g'x of every row; return the number of rows."""
+    normals, components, signs = program.normals, program.components, program.signs
     r = 0
-    bounds = len(program.components)
     for i in range(1, stages + 1):
         for p in range(program.plane_count[i]):
             values[r] = (
-                program.normals[i, p, 0] * states[i, 0]
-                + program.normals[i, p, 1] * states[i, 1]
-                + program.normals[i, p, 2] * states[i, 2]
+                normals[i, p, 0] * states[i, 0]
+                + normals[i, p, 1] * states[i, 1]
+                + normals[i, p, 2] * states[i, 2]
             )
             r += 1
-        for b in range(bounds):
-            values[r] = program.signs[b] * states[i, program.components[b]]
+        for b in range(len(components)):
+            values[r] = signs[b] * states[i, components[b]]
             r += 1
     for i in range(stages):
         for k in range(control_rows):
@@ -256,36 +256,37 @@ def _start_rows(count, rows, mu):
 @compiled_arithmetic
 def _objective_gradient(program, stages, work):
     """Gradient of the cost at the iterate, without the rows."""
-    states, controls, rhs = work.states, work.controls, work.state_rhs
+    states, controls = work.states, work.controls
+    rhs, control_rhs = work.state_rhs, work.control_rhs
+    own, gradient, last = program.state_hessian, program.state_gradient, program.terminal_hessian
     for i in range(1, stages):
         for k in range(STATES):
-            rhs[i, k] = program.state_hessian[k] * states[i, k] + program.state_gradient[i, k]
+            rhs[i, k] = own[k] * states[i, k] + gradient[i, k]
     for j in range(STATES):
-        total = program.state_gradient[stages, j]
+        total = gradient[stages, j]
         for k in range(STATES):
-            total += program.terminal_hessian[j, k] * states[stages, k]
+            total += last[j, k] * states[stages, k]
         rhs[stages, j] = total
+    hessian, norm = program.control_hessian, program.control_norm
     for i in range(stages):
         for k in range(CONTROLS):
-            work.control_rhs[i, k] = (
-                program.control_hessian[k] * controls[i, k] - program.control_norm[k]
-            )
+            control_rhs[i, k] = hessian[k] * controls[i, k] - norm[k]
 
 
 @compiled_arithmetic
 def _scatter(program, control_rows, stages, coefficients, state_rhs, control_rhs):
     """Add each row's coefficient times g to the gradients."""
+    normals, components, signs = program.normals, program.components, program.signs
     r = 0
-    bounds = len(program.components)
     for i in range(1, stages + 1):
         for p in range(program.plane_count[i]):
             c = coefficients[r]
-            state_rhs[i, 0] += c * program.normals[i, p, 0]
-            state_rhs[i, 1] += c * program.normals[i, p, 1]
-            state_rhs[i, 2] += c * program.normals[i, p, 2]
+            state_rhs[i, 0] += c * normals[i, p, 0]
+            state_rhs[i, 1] += c * normals[i, p, 1]
+            state_rhs[i, 2] += c * normals[i, p, 2]
             r += 1
-        for b in range(bounds):
-            state_rhs[i, program.components[b]] += coefficients[r] * program.signs[b]
+        for b in range(len(components)):
+            state_rhs[i, components[b]] += coefficients[r] * signs[b]
             r += 1
     for i in range(stages):
         for k in range(control_rows):
@@ -295,39 +296,44 @@ def _scatter(program, control_rows, stages, coefficients, state_rhs, control_rhs
 
 @compiled_arithmetic
 def _assemble_curvature(program, control_rows, stages, work):
-    """H plus the rows' D g g' for every stage, and the controls' diagonal."""
-    curvatures, curved = work.rows[CURVATURE], work.boxes[BOX_CURVATURE]
-    bounds = len(program.components)
+    """H plus the rows' D g g' for every stage, its upper triangle, and the controls' diagonal."""
+    curvatures, boxes = work.rows[CURVATURE], work.boxes[BOX_CURVATURE]
+    h, diagonal = work.curvature, work.control_curvature
+    normals, components = program.normals, program.components
+    own, last = program.state_hessian, program.terminal_hessian
     r = 0
     for i in range(1, stages + 1):
-        h = work.curvature[i]
-        if i < stages:
-            for j in range(STATES):
-                for k in range(STATES):
-                    h[j, k] = 0.0
-                h[j, j] = program.state_hessian[j]
-        else:
-            for j in range(STATES):
-                for k in range(STATES):
-                    h[j, k] = program.terminal_hessian[j, k]
+        for j in range(STATES):
+            for k in range(j, STATES):
+                h[i, j, k] = last[j, k] if i == stages else own[j] if j == k else 0.0
         for p in range(program.plane_count[i]):
             d = curvatures[r]
             for j in range(3):
-                dg = d * program.normals[i, p, j]
-                for k in range(3):
-                    h[j, k] += dg * program.normals[i, p, k]
+                dg = d * normals[i, p, j]
+                for k in range(j, 3):
+                    h[i, j, k] += dg * normals[i, p, k]
             r += 1
-        for b in range(bounds):
-            h[program.components[b], program.components[b]] += curvatures[r]
+        for b in range(len(components)):
+            h[i, components[b], components[b]] += curvatures[r]
             r += 1
     for i in range(stages):
         for k in range(CONTROLS):
-            c = CONTROLS * i + k
-            work.control_curvature[i, k] = program.control_hessian[k] + curved[c]
-    for i in range(stages):
+            diagonal[i, k] = program.control_hessian[k] + boxes[CONTROLS * i + k]
         for k in range(control_rows):
-            work.control_curvature[i, k] += curvatures[r]
+            diagonal[i, k] += curvatures[r]
             r += 1
+
+
+@compiled_arithmetic
+def _model(transitions, i):
+    """The entries of A of a stage that are not zero: in the orbit's plane, then out of it."""
+    return (
+        transitions[i, 0, 0], transitions[i, 0, 1], transitions[i, 0, 3], transitions[i, 0, 4],
+        transitions[i, 1, 0], transitions[i, 1, 1], transitions[i, 1, 3], transitions[i, 1, 4],
+        transitions[i, 3, 0], transitions[i, 3, 1], transitions[i, 3, 3], transitions[i, 3, 4],
+        transitions[i, 4, 0], transitions[i, 4, 1], transitions[i, 4, 3], transitions[i, 4, 4],
+        transitions[i, 2, 2], transitions[i, 2, 5], transitions[i, 5, 2], transitions[i, 5, 5],
+    )  # fmt: skip
 
 
 @compiled_arithmetic
@@ -338,26 +344,20 @@ def _factor(transitions, stages, work):
     out of it (z, vz) do not mix in A, but do in the cost-to-go P. For each stage M = A'PA, then
     the controls' part of M plus their own curvature is inverted.
     """
-    last = work.curvature[stages]
-    pxx, pxy, pxz, pxu, pxv, pxw = (
-        last[0, 0],
-        last[0, 1],
-        last[0, 2],
-        last[0, 3],
-        last[0, 4],
-        last[0, 5],
-    )
-    pyy, pyz, pyu, pyv, pyw = last[1, 1], last[1, 2], last[1, 3], last[1, 4], last[1, 5]
-    pzz, pzu, pzv, pzw = last[2, 2], last[2, 3], last[2, 4], last[2, 5]
-    puu, puv, puw = last[3, 3], last[3, 4], last[3, 5]
-    pvv, pvw, pww = last[4, 4], last[4, 5], last[5, 5]
+    curvature, curved = work.curvature, work.control_curvature
+    inverses, gains = work.inverses, work.gains
+    pxx, pxy, pxz = curvature[stages, 0, 0], curvature[stages, 0, 1], curvature[stages, 0, 2]
+    pxu, pxv, pxw = curvature[stages, 0, 3], curvature[stages, 0, 4], curvature[stages, 0, 5]
+    pyy, pyz, pyu = curvature[stages, 1, 1], curvature[stages, 1, 2], curvature[stages, 1, 3]
+    pyv, pyw, pzz = curvature[stages, 1, 4], curvature[stages, 1, 5], curvature[stages, 2, 2]
+    pzu, pzv, pzw = curvature[stages, 2, 3], curvature[stages, 2, 4], curvature[stages, 2, 5]
+    puu, puv, puw = curvature[stages, 3, 3], curvature[stages, 3, 4], curvature[stages, 3, 5]
+    pvv, pvw, pww = curvature[stages, 4, 4], curvature[stages, 4, 5], curvature[stages, 5, 5]
     for i in range(stages - 1, -1, -1):
-        a = transitions[i]
-        axx, axy, axu, axv = a[0, 0], a[0, 1], a[0, 3], a[0, 4]
-        ayx, ayy, ayu, ayv = a[1, 0], a[1, 1], a[1, 3], a[1, 4]
-        aux, auy, auu, auv = a[3, 0], a[3, 1], a[3, 3], a[3, 4]
-        avx, avy, avu, avv = a[4, 0], a[4, 1], a[4, 3], a[4, 4]
-        azz, azw, awz, aww = a[2, 2], a[2, 5], a[5, 2], a[5, 5]
+        (
+            axx, axy, axu, axv, ayx, ayy, ayu, ayv, aux, auy, auu, auv, avx, avy, avu, avv,
+            azz, azw, awz, aww,
+        ) = _model(transitions, i)  # fmt: skip
         # W = P A, row by row, for the columns that M's upper triangle needs
         wxx = pxx * axx + pxy * ayx + pxu * aux + pxv * avx
         wyx = pxy * axx + pyy * ayx + pyu * aux + pyv * avx
@@ -404,57 +404,54 @@ def _factor(transitions, stages, work):
         mvw = axv * wxw + ayv * wyw + auv * wuw + avv * wvw
         mww = azw * wzw + aww * www
         # inverse of the controls' part through its factors L D L'
-        d0 = 1.0 / (muu + work.control_curvature[i, 0])
+        d0 = 1.0 / (muu + curved[i, 0])
         l10, l20 = muv * d0, muw * d0
-        d1 = 1.0 / (mvv + work.control_curvature[i, 1] - l10 * muv)
+        d1 = 1.0 / (mvv + curved[i, 1] - l10 * muv)
         e21 = mvw - l20 * muv
         l21 = e21 * d1
-        d2 = 1.0 / (mww + work.control_curvature[i, 2] - l20 * muw - l21 * e21)
+        d2 = 1.0 / (mww + curved[i, 2] - l20 * muw - l21 * e21)
         r20 = l10 * l21 - l20
         i00 = d0 + l10 * l10 * d1 + r20 * r20 * d2
         i01 = -l10 * d1 - r20 * l21 * d2
         i02 = r20 * d2
         i11 = d1 + l21 * l21 * d2
         i12 = -l21 * d2
-        inverse = work.inverses[i]
-        inverse[0], inverse[1], inverse[2] = i00, i01, i02
-        inverse[3], inverse[4], inverse[5] = i11, i12, d2
+        inverses[i, 0], inverses[i, 1], inverses[i, 2] = i00, i01, i02
+        inverses[i, 3], inverses[i, 4], inverses[i, 5] = i11, i12, d2
         kux, kvx, kwx = _column(i00, i01, i02, i11, i12, d2, mxu, mxv, mxw)
         kuy, kvy, kwy = _column(i00, i01, i02, i11, i12, d2, myu, myv, myw)
         kuz, kvz, kwz = _column(i00, i01, i02, i11, i12, d2, muz, mvz, mzw)
         kuu, kvu, kwu = _column(i00, i01, i02, i11, i12, d2, muu, muv, muw)
         kuv, kvv, kwv = _column(i00, i01, i02, i11, i12, d2, muv, mvv, mvw)
         kuw, kvw, kww = _column(i00, i01, i02, i11, i12, d2, muw, mvw, mww)
-        gain = work.gains[i]
-        gain[0, 0], gain[0, 1], gain[0, 2] = kux, kuy, kuz
-        gain[0, 3], gain[0, 4], gain[0, 5] = kuu, kuv, kuw
-        gain[1, 0], gain[1, 1], gain[1, 2] = kvx, kvy, kvz
-        gain[1, 3], gain[1, 4], gain[1, 5] = kvu, kvv, kvw
-        gain[2, 0], gain[2, 1], gain[2, 2] = kwx, kwy, kwz
-        gain[2, 3], gain[2, 4], gain[2, 5] = kwu, kwv, kww
+        gains[i, 0, 0], gains[i, 0, 1], gains[i, 0, 2] = kux, kuy, kuz
+        gains[i, 0, 3], gains[i, 0, 4], gains[i, 0, 5] = kuu, kuv, kuw
+        gains[i, 1, 0], gains[i, 1, 1], gains[i, 1, 2] = kvx, kvy, kvz
+        gains[i, 1, 3], gains[i, 1, 4], gains[i, 1, 5] = kvu, kvv, kvw
+        gains[i, 2, 0], gains[i, 2, 1], gains[i, 2, 2] = kwx, kwy, kwz
+        gains[i, 2, 3], gains[i, 2, 4], gains[i, 2, 5] = kwu, kwv, kww
         # P of the stage: its own curvature, M and what the controls take off
-        own = work.curvature[i]
-        pxx = own[0, 0] + mxx + mxu * kux + mxv * kvx + mxw * kwx
-        pxy = own[0, 1] + mxy + mxu * kuy + mxv * kvy + mxw * kwy
-        pxz = own[0, 2] + mxz + mxu * kuz + mxv * kvz + mxw * kwz
-        pxu = own[0, 3] + mxu + mxu * kuu + mxv * kvu + mxw * kwu
-        pxv = own[0, 4] + mxv + mxu * kuv + mxv * kvv + mxw * kwv
-        pxw = own[0, 5] + mxw + mxu * kuw + mxv * kvw + mxw * kww
-        pyy = own[1, 1] + myy + myu * kuy + myv * kvy + myw * kwy
-        pyz = own[1, 2] + myz + myu * kuz + myv * kvz + myw * kwz
-        pyu = own[1, 3] + myu + myu * kuu + myv * kvu + myw * kwu
-        pyv = own[1, 4] + myv + myu * kuv + myv * kvv + myw * kwv
-        pyw = own[1, 5] + myw + myu * kuw + myv * kvw + myw * kww
-        pzz = own[2, 2] + mzz + muz * kuz + mvz * kvz + mzw * kwz
-        pzu = own[2, 3] + muz + muz * kuu + mvz * kvu + mzw * kwu
-        pzv = own[2, 4] + mvz + muz * kuv + mvz * kvv + mzw * kwv
-        pzw = own[2, 5] + mzw + muz * kuw + mvz * kvw + mzw * kww
-        puu = own[3, 3] + muu + muu * kuu + muv * kvu + muw * kwu
-        puv = own[3, 4] + muv + muu * kuv + muv * kvv + muw * kwv
-        puw = own[3, 5] + muw + muu * kuw + muv * kvw + muw * kww
-        pvv = own[4, 4] + mvv + muv * kuv + mvv * kvv + mvw * kwv
-        pvw = own[4, 5] + mvw + muv * kuw + mvv * kvw + mvw * kww
-        pww = own[5, 5] + mww + muw * kuw + mvw * kvw + mww * kww
+        pxx = curvature[i, 0, 0] + mxx + mxu * kux + mxv * kvx + mxw * kwx
+        pxy = curvature[i, 0, 1] + mxy + mxu * kuy + mxv * kvy + mxw * kwy
+        pxz = curvature[i, 0, 2] + mxz + mxu * kuz + mxv * kvz + mxw * kwz
+        pxu = curvature[i, 0, 3] + mxu + mxu * kuu + mxv * kvu + mxw * kwu
+        pxv = curvature[i, 0, 4] + mxv + mxu * kuv + mxv * kvv + mxw * kwv
+        pxw = curvature[i, 0, 5] + mxw + mxu * kuw + mxv * kvw + mxw * kww
+        pyy = curvature[i, 1, 1] + myy + myu * kuy + myv * kvy + myw * kwy
+        pyz = curvature[i, 1, 2] + myz + myu * kuz + myv * kvz + myw * kwz
+        pyu = curvature[i, 1, 3] + myu + myu * kuu + myv * kvu + myw * kwu
+        pyv = curvature[i, 1, 4] + myv + myu * kuv + myv * kvv + myw * kwv
+        pyw = curvature[i, 1, 5] + myw + myu * kuw + myv * kvw + myw * kww
+        pzz = curvature[i, 2, 2] + mzz + muz * kuz + mvz * kvz + mzw * kwz
+        pzu = curvature[i, 2, 3] + muz + muz * kuu + mvz * kvu + mzw * kwu
+        pzv = curvature[i, 2, 4] + mvz + muz * kuv + mvz * kvv + mzw * kwv
+        pzw = curvature[i, 2, 5] + mzw + muz * kuw + mvz * kvw + mzw * kww
+        puu = curvature[i, 3, 3] + muu + muu * kuu + muv * kvu + muw * kwu
+        puv = curvature[i, 3, 4] + muv + muu * kuv + muv * kvv + muw * kwv
+        puw = curvature[i, 3, 5] + muw + muu * kuw + muv * kvw + muw * kww
+        pvv = curvature[i, 4, 4] + mvv + muv * kuv + mvv * kvv + mvw * kwv
+        pvw = curvature[i, 4, 5] + mvw + muv * kuw + mvv * kvw + mvw * kww
+        pww = curvature[i, 5, 5] + mww + muw * kuw + mvw * kvw + mww * kww
 
 
 @compiled_arithmetic
@@ -470,52 +467,46 @@ def _column(i00, i01, i02, i11, i12, i22, x, y, z):
 @compiled_arithmetic
 def _step(transitions, stages, work):
     """Newton step of states and controls for the gradients in the workspace."""
-    rhs = work.state_rhs
+    rhs, control_rhs, feedforward = work.state_rhs, work.control_rhs, work.feedforward
+    inverses, gains = work.inverses, work.gains
     px, py, pz = rhs[stages, 0], rhs[stages, 1], rhs[stages, 2]
     pu, pv, pw = rhs[stages, 3], rhs[stages, 4], rhs[stages, 5]
     for i in range(stages - 1, -1, -1):
-        a = transitions[i]
-        axx, axy, axu, axv = a[0, 0], a[0, 1], a[0, 3], a[0, 4]
-        ayx, ayy, ayu, ayv = a[1, 0], a[1, 1], a[1, 3], a[1, 4]
-        aux, auy, auu, auv = a[3, 0], a[3, 1], a[3, 3], a[3, 4]
-        avx, avy, avu, avv = a[4, 0], a[4, 1], a[4, 3], a[4, 4]
-        azz, azw, awz, aww = a[2, 2], a[2, 5], a[5, 2], a[5, 5]
+        (
+            axx, axy, axu, axv, ayx, ayy, ayu, ayv, aux, auy, auu, auv, avx, avy, avu, avv,
+            azz, azw, awz, aww,
+        ) = _model(transitions, i)  # fmt: skip
         mx = axx * px + ayx * py + aux * pu + avx * pv
         my = axy * px + ayy * py + auy * pu + avy * pv
         mu = axu * px + ayu * py + auu * pu + avu * pv
         mv = axv * px + ayv * py + auv * pu + avv * pv
         mz, mw = azz * pz + awz * pw, azw * pz + aww * pw
-        x, y = work.control_rhs[i, 0] + mu, work.control_rhs[i, 1] + mv
-        z = work.control_rhs[i, 2] + mw
-        inv, gain = work.inverses[i], work.gains[i]
-        work.feedforward[i, 0] = -(inv[0] * x + inv[1] * y + inv[2] * z)
-        work.feedforward[i, 1] = -(inv[1] * x + inv[3] * y + inv[4] * z)
-        work.feedforward[i, 2] = -(inv[2] * x + inv[4] * y + inv[5] * z)
-        px = rhs[i, 0] + mx + gain[0, 0] * x + gain[1, 0] * y + gain[2, 0] * z
-        py = rhs[i, 1] + my + gain[0, 1] * x + gain[1, 1] * y + gain[2, 1] * z
-        pz = rhs[i, 2] + mz + gain[0, 2] * x + gain[1, 2] * y + gain[2, 2] * z
-        pu = rhs[i, 3] + mu + gain[0, 3] * x + gain[1, 3] * y + gain[2, 3] * z
-        pv = rhs[i, 4] + mv + gain[0, 4] * x + gain[1, 4] * y + gain[2, 4] * z
-        pw = rhs[i, 5] + mw + gain[0, 5] * x + gain[1, 5] * y + gain[2, 5] * z
+        x, y, z = control_rhs[i, 0] + mu, control_rhs[i, 1] + mv, control_rhs[i, 2] + mw
+        feedforward[i, 0] = -(inverses[i, 0] * x + inverses[i, 1] * y + inverses[i, 2] * z)
+        feedforward[i, 1] = -(inverses[i, 1] * x + inverses[i, 3] * y + inverses[i, 4] * z)
+        feedforward[i, 2] = -(inverses[i, 2] * x + inverses[i, 4] * y + inverses[i, 5] * z)
+        px = rhs[i, 0] + mx + gains[i, 0, 0] * x + gains[i, 1, 0] * y + gains[i, 2, 0] * z
+        py = rhs[i, 1] + my + gains[i, 0, 1] * x + gains[i, 1, 1] * y + gains[i, 2, 1] * z
+        pz = rhs[i, 2] + mz + gains[i, 0, 2] * x + gains[i, 1, 2] * y + gains[i, 2, 2] * z
+        pu = rhs[i, 3] + mu + gains[i, 0, 3] * x + gains[i, 1, 3] * y + gains[i, 2, 3] * z
+        pv = rhs[i, 4] + mv + gains[i, 0, 4] * x + gains[i, 1, 4] * y + gains[i, 2, 4] * z
+        pw = rhs[i, 5] + mw + gains[i, 0, 5] * x + gains[i, 1, 5] * y + gains[i, 2, 5] * z
     dx, du = work.state_steps, work.control_steps
     x, y, z, u, v, w = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(stages):
-        gain = work.gains[i]
         for j in range(CONTROLS):
             du[i, j] = (
-                work.feedforward[i, j]
-                + (gain[j, 0] * x + gain[j, 1] * y + gain[j, 2] * z)
-                + (gain[j, 3] * u + gain[j, 4] * v + gain[j, 5] * w)
+                feedforward[i, j]
+                + (gains[i, j, 0] * x + gains[i, j, 1] * y + gains[i, j, 2] * z)
+                + (gains[i, j, 3] * u + gains[i, j, 4] * v + gains[i, j, 5] * w)
             )
         u += du[i, 0]
         v += du[i, 1]
         w += du[i, 2]
-        a = transitions[i]
-        axx, axy, axu, axv = a[0, 0], a[0, 1], a[0, 3], a[0, 4]
-        ayx, ayy, ayu, ayv = a[1, 0], a[1, 1], a[1, 3], a[1, 4]
-        aux, auy, auu, auv = a[3, 0], a[3, 1], a[3, 3], a[3, 4]
-        avx, avy, avu, avv = a[4, 0], a[4, 1], a[4, 3], a[4, 4]
-        azz, azw, awz, aww = a[2, 2], a[2, 5], a[5, 2], a[5, 5]
+        (
+            axx, axy, axu, axv, ayx, ayy, ayu, ayv, aux, auy, auu, auv, avx, avy, avu, avv,
+            azz, azw, awz, aww,
+        ) = _model(transitions, i)  # fmt: skip
         nx = axx * x + axy * y + axu * u + axv * v
         ny = ayx * x + ayy * y + ayu * u + ayv * v
         nu = aux * x + auy * y + auu * u + auv * v
@@ -546,7 +537,7 @@ def _largest_control_gradient(transitions, stages, work):
     return largest
 
 
-@compiled_arithmetic
+@compiled
 def solve(program, stages, start, work, tolerance, iteration_limit):
     """Solve one program.
 
