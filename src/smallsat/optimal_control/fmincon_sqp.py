@@ -91,9 +91,10 @@ class Problem:
     ahead: int = 1
 
     def violations(self, values: np.ndarray) -> np.ndarray:
-        """By how much each constraint is violated."""
-        violations = np.abs(values[1:])
-        violations[self.equalities :] = np.maximum(values[1 + self.equalities :], 0.0)
+        """By how much each constraint is violated, (..., c), for values (..., 1 + c)."""
+        violations = np.abs(values[..., 1:])
+        unequal = slice(self.equalities, None)
+        violations[..., unequal] = np.maximum(values[..., 1:][..., unequal], 0.0)
         return violations
 
     def jacobian(self, x: np.ndarray, values: np.ndarray) -> np.ndarray:
@@ -136,10 +137,11 @@ class _Merit:
         self._first, self._kept = values, 0.0
         self.slope = 0.0
 
-    def of(self, values: np.ndarray, penalty: float | None = None) -> float:
+    def of(self, values: np.ndarray, penalty: float | None = None) -> Any:
+        """Of values (..., 1 + c); infinite where they are no numbers."""
         weight = self.penalty if penalty is None else penalty
-        merit = float(values[0] + weight * self._violations(values).sum())
-        return merit if np.isfinite(merit) else np.inf
+        merit = values[..., 0] + weight * self._violations(values).sum(axis=-1)
+        return np.where(np.isfinite(merit), merit, np.inf)
 
     def prepare(self, values: np.ndarray, step: _Step, iteration: int) -> None:
         """Give the penalty that makes the step one of descent, and the merit's slope along it."""
@@ -212,8 +214,9 @@ def _worst(problem: Problem, point: _Point) -> float:
     return float(problem.violations(point.values).max(initial=0.0))
 
 
-def _small(step: np.ndarray, x: np.ndarray) -> bool:
-    return bool((np.abs(step) < TOLERANCE * np.maximum(1.0, np.abs(x))).all())
+def _small(step: np.ndarray, x: np.ndarray) -> Any:
+    """Whether a step (..., n) from a point (n,) is too small to matter."""
+    return (np.abs(step) < TOLERANCE * np.maximum(1.0, np.abs(x))).all(axis=-1)
 
 
 def _line_search(
@@ -231,32 +234,38 @@ def _line_search(
     which only those of full steps may exceed ``most``.
     """
 
-    def reached(moves: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    def reached(moves: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         points = np.clip(point.x + moves, problem.lower, problem.upper)
         return points, problem.functions(points)
 
     here, bend = merit.of(point.values), np.zeros_like(point.x)
-    (x,), (values,) = reached([step.direction])
+    (x,), (values,) = reached(step.direction[None])
     there, count = merit.of(values), 1
     if curvature is not None and here < there < np.inf and values[0] < point.values[0]:
         corrected = values - point.jacobian @ step.direction
         second = _normal_step(problem, point, corrected, curvature)
         if second is not None:
             bend = second.direction - step.direction
-            (x,), (values,) = reached([second.direction])
+            (x,), (values,) = reached(second.direction[None])
             there, count = merit.of(values), 2
     if not there > here + ARMIJO * merit.slope:
         return (1.0, x, values), count
-    length = 1.0
+    lengths = np.ones(problem.ahead)
     while True:
-        lengths = [length := length * SHORTER for _ in range(problem.ahead)]
-        moves = [one * step.direction + one**2 * bend for one in lengths]
-        for one, move, x, values in zip(lengths, moves, *reached(moves), strict=True):
-            if count >= most or _small(move, point.x):
+        lengths = np.multiply.accumulate([lengths[-1] * SHORTER, *[SHORTER] * (problem.ahead - 1)])
+        # Of Python's own powers: NumPy's differ by a bit at times, and where an iteration ends that
+        # does not converge hangs on bits.
+        squares = [one**2 for one in lengths.tolist()]
+        moves = np.outer(lengths, step.direction) + np.outer(squares, bend)
+        points, found = reached(moves)
+        too_small = _small(moves, point.x)
+        lower = ~(merit.of(found) > here + lengths * ARMIJO * merit.slope)
+        for k in range(problem.ahead):
+            if count >= most or too_small[k]:
                 return None, count
             count += 1
-            if not merit.of(values) > here + one * ARMIJO * merit.slope:
-                return (one, x, values), count
+            if lower[k]:
+                return (float(lengths[k]), points[k], found[k]), count
 
 
 def _exit_flag(
@@ -381,11 +390,19 @@ def _solve(
         clarabel.NonnegativeConeT(len(rows) - equalities),
     ]
     answer = clarabel.DefaultSolver(
-        csc_matrix(np.triu(weight * h)), weight * g, csc_matrix(rows), sides, cones, _settings()
+        _sparse(np.triu(weight * h)), weight * g, _sparse(rows), sides, cones, _settings()
     ).solve()
     if answer.status not in SOLVED:
         return None
     return np.clip(answer.x, low, high), np.array(answer.z)[: len(a)] / weight
+
+
+def _sparse(matrix: np.ndarray) -> csc_matrix:
+    """The same as SciPy makes of an array, by a shorter way than over its coordinates."""
+    columns, rows = np.nonzero(matrix.T)
+    ends = np.zeros(matrix.shape[1] + 1, int)
+    np.cumsum(np.count_nonzero(matrix, axis=0), out=ends[1:])
+    return csc_matrix((matrix[rows, columns], rows, ends), shape=matrix.shape)
 
 
 @cache
