@@ -19,7 +19,7 @@ from smallsat.shard import Shard
 from smallsat.strict_yaml import read_yaml
 from smallsat.workflow.figures import drawn, read_runs
 from smallsat.workflow.isolation import isolate
-from smallsat.workflow.names import check_names
+from smallsat.workflow.names import check_names, rule_name
 from smallsat.workflow.run import read_run
 from smallsat.workflow.seconds import accepted
 from smallsat.workflow.sources import named_modules, notebook_modules, source_files

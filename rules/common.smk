@@ -99,7 +99,6 @@ def step(
         Whether it is run only when asked for by its name.
     """
     implementation = f"smallsat.studies.{study}.steps.{runs or name}"
-    rule_name = f"{study}_{name}".replace("-", "_")
     words = [
         *[f"--published {project(f'data/published/{study}')}"] * bool(published),
         *[f"--accepted {project(f'data/accepted/{study}')}"] * bool(accepted),
@@ -111,7 +110,7 @@ def step(
 
     rule:
         name:
-            rule_name
+            rule_name(study, name)
         input:
             sources=sources("smallsat.workflow.run_step", implementation),
             published=published_files(study, *published),
@@ -124,7 +123,7 @@ def step(
             f"logs/{study}/{name}.log",
         benchmark:
             f"logs/{study}/{name}.benchmark.tsv"
-        priority: urgency(rule_name) if priority is None else priority
+        priority: urgency(rule_name(study, name)) if priority is None else priority
         params:
             study=study,
             step=runs or name,

@@ -7,7 +7,7 @@ for study in STUDIES:
 
         rule:
             name:
-                f"{study}_{run.name}".replace("-", "_")
+                rule_name(study, run.name)
             input:
                 notebook=project(f"notebooks/{study}/{run.notebook}.ipynb"),
                 sources=sources(
@@ -25,7 +25,7 @@ for study in STUDIES:
                 f"logs/{study}/{run.name}.log",
             benchmark:
                 f"logs/{study}/{run.name}.benchmark.tsv"
-            priority: urgency(f"{study}_{run.name}".replace("-", "_"))
+            priority: urgency(rule_name(study, run.name))
             params:
                 parameters=as_json(
                     run.given(

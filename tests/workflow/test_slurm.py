@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 
+from smallsat.workflow.names import rule_name
 from smallsat.workflow.seconds import last_build, machine
 
 ROOT = Path(__file__).parents[2]
@@ -99,11 +100,6 @@ def shards(run: Path) -> dict[str, int]:
     return {path.stem: path.stat().st_mtime_ns for path in written}
 
 
-def rule_of(shard: str) -> str:
-    """The rule that makes a shard."""
-    return "rendezvous_" + shard.replace("-", "_")
-
-
 def in_flight(run: Path) -> set[str]:
     """Shards that a job has begun to fly and not written."""
     logs = (run / "logs/rendezvous").glob("*-of-*.log")
@@ -135,7 +131,8 @@ def test_a_node_fails_and_the_bytes_are_those_of_a_local_build(make_project):
         until(lambda: "NODE_FAIL" in states(), 300, process)
         # A shard may be whole whose job has died before it could say so: that one is run again.
         done_before = completed(run)
-        kept = {name: at for name, at in written.items() if rule_of(name) in done_before}
+        rules = {name: rule_name("rendezvous", name) for name in written}
+        kept = {name: at for name, at in written.items() if rules[name] in done_before}
         cluster("return")
         output, _ = process.communicate(timeout=1200)
     finally:

@@ -21,6 +21,7 @@ from matplotlib.path import Path as MplPath
 from smallsat.catalogue import read_catalogue
 from smallsat.drawing.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, apply_style
 from smallsat.workflow.figures import read_runs
+from smallsat.workflow.names import rule_name
 
 # Inches: columns, rows, nodes, and what is between the studies and what joins them. A browser shows
 # the whole 1000 pixels wide, in which its letters are read.
@@ -197,7 +198,7 @@ def main(arguments: argparse.Namespace) -> None:
     apply_style()
     studies = [study.name for study in read_catalogue(Path("data/published"))]
     notebooks = [
-        f"{run.study}_{run.name}".replace("-", "_")
+        rule_name(run.study, run.name)
         for study in studies
         for run in read_runs(Path("notebooks") / study)
     ]

@@ -14,6 +14,11 @@ from smallsat.workflow.figures import NotebookRun
 _PLAIN = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]*")
 
 
+def rule_name(study: str, name: str) -> str:
+    """The rule of a step or a notebook run of a study."""
+    return f"{study}_{name}".replace("-", "_")
+
+
 def check_names(
     study: str,
     artefacts: Iterable[Mapping[str, str]],
