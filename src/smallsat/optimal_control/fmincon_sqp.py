@@ -93,8 +93,7 @@ class Problem:
     def violations(self, values: np.ndarray) -> np.ndarray:
         """By how much each constraint is violated, (..., c), for values (..., 1 + c)."""
         violations = np.abs(values[..., 1:])
-        unequal = slice(self.equalities, None)
-        violations[..., unequal] = np.maximum(values[..., 1:][..., unequal], 0.0)
+        violations[..., self.equalities :] = np.maximum(values[..., 1 + self.equalities :], 0.0)
         return violations
 
     def jacobian(self, x: np.ndarray, values: np.ndarray) -> np.ndarray:

@@ -99,8 +99,8 @@ class Workspace(NamedTuple):
         What `LIMIT` to `VALUE_STEP` name, of each row, (12, R). Rows on states come first, stage by
         stage, then those on controls.
     curvature, state_rhs, control_rhs, control_curvature
-        What the recursion starts from: H plus the rows' part, (N + 1, 6, 6), gradients and the
-        controls' diagonal.
+        What the recursion starts from: H plus the rows' part, (N + 1, 6, 6), of which the upper
+        triangle is used, gradients and the controls' diagonal.
     gains, inverses
         Factors of the recursion: feedback, (N, 3, 6), and inverse of the controls' part, (N, 6).
     feedforward
