@@ -1,4 +1,4 @@
-"""Is the optimum one? Finer meshes, other starts, dynamic programming, Pontryagin's conditions.
+"""Is the optimum one? Finer meshes, other starts, Pontryagin's conditions, sweeps.
 
 Each check gives its table, and the cases in it without a solution, whose numbers are missing.
 """
@@ -12,19 +12,15 @@ from smallsat.dynamics.orbits.clohessy_wiltshire import costate_transition, rate
 from smallsat.evidence.not_converged import NotConverged
 from smallsat.studies.racing.configuration import Configuration
 from smallsat.studies.racing.methods import attempts
-from smallsat.studies.racing.methods.course_program import Arcs, Leg, Plan, length_unit
+from smallsat.studies.racing.methods.course_program import Arcs, Plan
 from smallsat.studies.racing.methods.flight import propagate_plan, residual
-from smallsat.studies.racing.methods.races import ANYWHERE, REST, WHOLE, program, whole_leg
-from smallsat.studies.racing.model.course import Course
+from smallsat.studies.racing.methods.races import ANYWHERE, WHOLE, program, whole_leg
 from smallsat.studies.racing.model.cubesat import CubeSat
 from smallsat.studies.racing.parameters import Parameters
 
 SATURATED = 1.0 - 1e-3
 # Random guesses: ring speeds and durations between these, scaled.
 SPEEDS, TIMES = (0.3, 1.2), (1.6, 3.5)
-# How often the range of speeds is doubled, and what counts as its end, in spacings of its grid.
-# Below the range the refinements go by themselves.
-WIDENED, END = 3, 1e-6
 # A primer below this share of its largest value has no direction to speak of.
 SMALL_PRIMER = 0.05
 # Columns of `mesh_refinement` that are there even if nothing converged.
@@ -147,136 +143,6 @@ def other_starts(parameters: Parameters, section: Configuration, scenario: str) 
                 }
             )
     return pd.DataFrame(rows)
-
-
-def dynamic_programming(parameters: Parameters, section: Configuration, scenario: str) -> Checked:
-    """Least time over the ring speeds, the only free part of a state at a ring.
-
-    A table of least times from speed to speed for every segment, first on a grid of speeds, then on
-    ever finer ones around the best path. Each entry is a solve of one segment with both ends fixed,
-    on the mesh of the whole-course program, which it must agree with. The grid's range goes with
-    the thrust and the size of the course; where the best path touches its end, it is doubled.
-    """
-    numbers, race = section.dynamic_programming, parameters.races[scenario]
-    cubesat = next(c for c in race.cubesats if c.name == numbers.cubesat)
-    course = race.course
-    length = length_unit(np.vstack([cubesat.position, course.centres, course.end]))
-    unit = float(np.sqrt(length * cubesat.thrust))
-    grid = unit * np.linspace(numbers.least_speed, numbers.largest_speed, numbers.speeds)
-    known: dict[tuple[int, float, float], float] = {}
-    for _ in range(1 + WIDENED):
-        levels, fastest = _refined(parameters, section, course, cubesat, grid, known)
-        if not fastest:
-            break
-        grid = np.linspace(grid[0], 2.0 * grid[-1], len(grid))
-    rows = [{"scenario": scenario, "cubesat": cubesat.name} | level for level in levels]
-    missing = []
-    if np.isnan(levels[-1]["time_s"]):
-        missing.append(
-            NotConverged(
-                f"{scenario}, {cubesat.name}, dynamic programming",
-                "no path of solved segments",
-                tried=f"{len(grid)} speeds from {grid[0]:.3g} to {grid[-1]:.3g} m/s at each ring",
-            )
-        )
-    return pd.DataFrame(rows), missing
-
-
-def _refined(
-    parameters: Parameters,
-    section: Configuration,
-    course: Course,
-    cubesat: CubeSat,
-    grid: np.ndarray,
-    known: dict[tuple[int, float, float], float],
-) -> tuple[list[dict[str, Any]], bool]:
-    """Least times on a grid of speeds and on ever finer ones, one a level.
-
-    Also whether the best path goes as fast as all of them let it: then the range was too small.
-    """
-    numbers = section.dynamic_programming
-    spacing = float(grid[1] - grid[0])
-    least, reach = float(grid[0]) / 100.0, float(grid[-1])
-    choices = [grid] * course.rings
-    levels: list[dict[str, Any]] = []
-    for level in range(numbers.refinements + 1):
-        total, path = _best_path(parameters, section, course, cubesat, choices, known)
-        levels.append(
-            {
-                "level": level,
-                "spacing_m_s": spacing,
-                "segments_solved": len(known),
-                "time_s": total if np.isfinite(total) else np.nan,
-            }
-        )
-        if not np.isfinite(total):
-            return levels, False
-        at_the_end = max(path) > reach - END * spacing
-        spacing /= 2.0
-        reach += spacing
-        choices = [np.maximum([s - spacing, s, s + spacing], least) for s in path]
-    return levels, at_the_end
-
-
-def _best_path(
-    parameters: Parameters,
-    section: Configuration,
-    course: Course,
-    cubesat: CubeSat,
-    choices: list[np.ndarray],
-    known: dict[tuple[int, float, float], float],
-) -> tuple[float, list[float]]:
-    """Bellman's recursion from the finish back to the start."""
-    ends = [*choices, np.zeros(1)]
-    starts = [np.zeros(1), *choices]
-    values, decisions = np.zeros(1), []
-    for k in reversed(range(course.rings + 1)):
-        times = np.array(
-            [
-                [
-                    _segment_time(parameters, section, course, cubesat, k, v, w, known)
-                    for w in ends[k]
-                ]
-                for v in starts[k]
-            ]
-        )
-        totals = times + values
-        decisions.append(totals.argmin(axis=1))
-        values = totals.min(axis=1)
-    path, place = [], 0
-    for k, decision in enumerate(reversed(decisions)):
-        place = int(decision[place])
-        if k < course.rings:
-            path.append(float(ends[k][place]))
-    return float(values[0]), path
-
-
-def _segment_time(
-    parameters: Parameters,
-    section: Configuration,
-    course: Course,
-    cubesat: CubeSat,
-    k: int,
-    before: float,
-    after: float,
-    known: dict[tuple[int, float, float], float],
-) -> float:
-    """Least time of segment k between given speeds; infinite where the solver finds none."""
-    key = (k, round(before, 9), round(after, 9))
-    if key not in known:
-        final = k == course.rings
-        leg = Leg(
-            cubesat.position if k == 0 else course.centres[k - 1],
-            REST if k == 0 else before * course.normals[k - 1],
-            course.centres[:0],
-            course.normals[:0],
-            course.end if final else course.centres[k],
-            REST if final else after * course.normals[k],
-        )
-        solver = program(0, "state", section.optimum.intervals)
-        plan = solver.solve(leg, cubesat, parameters.mean_motion)
-        known[key] = plan.time if plan.converged else np.inf
-    return known[key]
 
 
 def thrust_sweep(parameters: Parameters, section: Configuration, scenario: str) -> Checked:

@@ -254,7 +254,7 @@ class CourseProgram:
                 [unit.weight(leg.weight)],
             ]
         )
-        durations, speeds, controls, inner, final, offsets = (
+        durations, speeds, controls, final, offsets = (
             self._smooth(scaled, arcs or Arcs())
             if guess is None
             else self._restart(guess, scaled, limits, unit)
@@ -262,7 +262,7 @@ class CourseProgram:
         slack = np.maximum(bound - np.sum(controls**2, axis=2), 0.0)
         free = final if self.finish == "rest anywhere" else np.empty(0)
         own = self.own_guess(durations, offsets)
-        parts = (durations, speeds, controls, inner, slack, own, free)
+        parts = (durations, speeds, controls, slack, own, free)
         variables = np.concatenate([np.ravel(part) for part in parts])
         solution = (solver or self._solver).solve(variables, parameters.tolist())
         return self._plan(solution, parameters, limits, unit)
@@ -289,7 +289,7 @@ class CourseProgram:
         """The program, and the states at its nodes (6, m + 1) by its variables and parameters."""
         m, n, rings = self.segments, self.intervals, self.rings
         speeds, times = ca.MX.sym("speed", rings), ca.MX.sym("T", m)
-        inner, controls = ca.MX.sym("X", 6, m * (n - 1)), ca.MX.sym("U", 3, m * n)
+        controls = ca.MX.sym("U", 3, m * n)
         slack = ca.MX.sym("slack", m * n)
         free = ca.MX.sym("r_f", 3 if self.finish == "rest anywhere" else 0)
         start, centres, normals = (
@@ -301,30 +301,23 @@ class CourseProgram:
         mean_motion, bound = ca.MX.sym("omega"), ca.MX.sym("b")
         others, weight = ca.MX.sym("own", self.own_variables * rings), ca.MX.sym("w")
 
-        flow = _flow(n).map(m * n)
         by_ring = ca.reshape(others, self.own_variables, rings)
         symbols = Symbols(times, speeds, by_ring, centres, normals, end, mean_motion, weight)
         nodes = [start, *self.nodes(symbols)]
         if self.finish == "rest anywhere":
             nodes.append(ca.vertcat(free, ca.MX.zeros(3)))
-        before, after = [], []
-        for k in range(m):
-            own = inner[:, k * (n - 1) : (k + 1) * (n - 1)]
-            before += [nodes[k], own]
-            after += [own, nodes[k + 1]]
-        lengths = ca.vec(ca.repmat(times.T, n, 1)).T
-        applied = controls * ca.repmat(limits, 1, m * n)
-        gaps = flow(
-            ca.horzcat(*before), applied, lengths, ca.repmat(mean_motion, 1, m * n)
-        ) - ca.horzcat(*after)
+        applied = ca.reshape(controls * ca.repmat(limits, 1, m * n), 3 * n, m)
+        arrived = _flow(n).map(m)(
+            ca.horzcat(*nodes[:-1]), applied, times.T, ca.repmat(mean_motion, 1, m)
+        )
+        gaps = arrived - ca.horzcat(*nodes[1:])
         ball = ca.sum1(controls**2).T + slack - bound
-        variables = ca.vertcat(times, speeds, ca.vec(controls), ca.vec(inner), slack, others, free)
+        variables = ca.vertcat(times, speeds, ca.vec(controls), slack, others, free)
         low = np.concatenate(
             [
                 np.full(m, SHORTEST),
                 np.full(rings, LEAST_SPEED),
                 np.full(3 * m * n, -1.0),
-                np.full(6 * m * (n - 1), -np.inf),
                 np.zeros(m * n),
                 np.full(others.numel() + free.numel(), -np.inf),
             ]
@@ -334,7 +327,7 @@ class CourseProgram:
                 np.full(m, LONGEST),
                 np.full(rings, np.inf),
                 np.ones(3 * m * n),
-                np.full(6 * m * (n - 1) + m * n + others.numel() + free.numel(), np.inf),
+                np.full(m * n + others.numel() + free.numel(), np.inf),
             ]
         )
         parameters = ca.vertcat(
@@ -359,13 +352,11 @@ class CourseProgram:
         middle = 0.5 * (s[1:] + s[:-1])
         t = durations[:, None, None]
         values = (before, start * durations[:, None], targets, after * durations[:, None])
-        place, rate, _ = _hermite(s[None, 1:-1, None], *(v[:, None] for v in values))
-        *_, bend = _hermite(middle[None, :, None], *(v[:, None] for v in values))
+        bend = _bend(middle[None, :, None], *(v[:, None] for v in values))
         controls = bend / t**2
         size = np.linalg.norm(controls, axis=2, keepdims=True)
         controls *= GUESS_THRUST / np.maximum(size, GUESS_THRUST)
-        inner = np.concatenate([place, rate / t], axis=2)
-        return durations, speeds, controls, inner, leg.end_position, np.zeros((self.rings, 3))
+        return durations, speeds, controls, leg.end_position, np.zeros((self.rings, 3))
 
     def _restart(
         self, plan: Plan, leg: Leg, limits: np.ndarray, unit: "_Units"
@@ -375,16 +366,9 @@ class CourseProgram:
         picked = (np.arange(self.intervals) * old) // self.intervals
         controls = plan.controls[:, picked] / limits
         durations = plan.durations / unit.time
-        inner = np.empty((self.segments, self.intervals - 1, 6))
-        flow = _flow(self.intervals)
-        for k in range(self.segments):
-            x = unit.state(plan.starts[k])
-            for i in range(self.intervals - 1):
-                x = flow(x, controls[k, i] * limits / limits.max(), durations[k], unit.mean_motion)
-                inner[k, i] = x.full().ravel()
         passed = unit.state(plan.ends)[: self.rings]
         speeds, offsets = np.linalg.norm(passed[:, 3:], axis=1), passed[:, :3] - leg.centres
-        return durations, speeds, controls, inner, unit.state(plan.final)[:3], offsets
+        return durations, speeds, controls, unit.state(plan.final)[:3], offsets
 
     def _plan(
         self, solution: Solution, parameters: np.ndarray, limits: np.ndarray, unit: "_Units"
@@ -395,10 +379,10 @@ class CourseProgram:
         controls = z[m + rings : m + rings + 3 * m * n].reshape(m, n, 3)
         nodes = self._program[1](z, parameters).full().T
         assert solution.multipliers is not None
-        # The multiplier of a gap is the costate at the end of its piece.
-        ends = solution.multipliers[: 6 * m * n].reshape(m, n, 6)[:, 0]
+        # The multiplier of a gap is the costate at the end of its segment.
+        ends = solution.multipliers[: 6 * m].reshape(m, 6)
         costates = np.array(
-            [transition(unit.mean_motion, durations[k] / n).T @ ends[k] for k in range(m)]
+            [transition(unit.mean_motion, durations[k]).T @ ends[k] for k in range(m)]
         )
         return Plan(
             durations=durations * unit.time,
@@ -410,22 +394,30 @@ class CourseProgram:
         )
 
 
-def _hermite(s, a, da, b, db):
-    """Cubic between values with given slopes: value, first and second derivative by s."""
-    c2, c3 = 3.0 * (b - a) - 2.0 * da - db, 2.0 * (a - b) + da + db
-    return a + s * (da + s * (c2 + s * c3)), da + s * (2 * c2 + 3 * s * c3), 2 * c2 + 6 * s * c3
+def _bend(s, a, da, b, db):
+    """Second derivative by s of a cubic between values with given slopes."""
+    return 2.0 * (3.0 * (b - a) - 2.0 * da - db) + 6.0 * s * (2.0 * (a - b) + da + db)
 
 
 def _flow(intervals: int) -> ca.Function:
-    """State after a piece of a segment: (x, u, duration of the segment, mean motion)."""
-    x, u = ca.SX.sym("x", 6), ca.SX.sym("u", 3)
+    """State at the end of a segment: (x, all u of it, its duration, mean motion).
+
+    What a push held over a piece does is what it does when held to the end from the start of the
+    piece, less what it does from the end of the piece.
+    """
+    x, u = ca.SX.sym("x", 6), ca.SX.sym("u", 3, intervals)
     duration, mean_motion = ca.SX.sym("T"), ca.SX.sym("n")
-    h = duration / intervals
-    free, forced = (
-        ca.vertcat(*(ca.horzcat(*row) for row in rows(mean_motion, h, ca)))
-        for rows in (transition_rows, held_input_rows)
-    )
-    return ca.Function("flow", [x, u, duration, mean_motion], [free @ x + forced @ u])
+
+    def matrix(entries: Any, t: Any) -> ca.SX:
+        return ca.vertcat(*(ca.horzcat(*row) for row in entries(mean_motion, t, ca)))
+
+    end = matrix(transition_rows, duration) @ x
+    shorter = ca.SX(6, 3)
+    for i in reversed(range(intervals)):
+        held = matrix(held_input_rows, duration * (intervals - i) / intervals)
+        end += (held - shorter) @ u[:, i]
+        shorter = held
+    return ca.Function("flow", [x, ca.vec(u), duration, mean_motion], [end])
 
 
 class _Units:

@@ -3,7 +3,7 @@
 from smallsat.evidence.not_converged import not_converged_table
 from smallsat.step import Step, Tables
 from smallsat.studies.racing.configuration import SCENARIOS, Configuration
-from smallsat.studies.racing.methods.checks import dynamic_programming
+from smallsat.studies.racing.methods.dynamic_programming import dynamic_programming
 from smallsat.studies.racing.parameters import Parameters
 
 
