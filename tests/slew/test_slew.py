@@ -6,7 +6,7 @@ import pytest
 from smallsat.errors import InputError
 from smallsat.optimal_control.gauss_pseudospectral import Mesh
 from smallsat.studies.slew.configuration import Controller
-from smallsat.studies.slew.methods import minimum_time
+from smallsat.studies.slew.methods import guidance_problem, minimum_time
 from smallsat.studies.slew.methods.bound import (
     bound_time,
     largest_disturbance,
@@ -14,7 +14,7 @@ from smallsat.studies.slew.methods.bound import (
     reach_by_euler,
 )
 from smallsat.studies.slew.methods.flights import controller
-from smallsat.studies.slew.methods.guidance_problem import Model
+from smallsat.studies.slew.methods.guidance_problem import Guidance, Model
 from smallsat.studies.slew.methods.one_axis import bang_coast_bang
 from smallsat.studies.slew.methods.plans import (
     asked_once,
@@ -161,6 +161,23 @@ def test_quarter_turn_is_the_bang_coast_bang_by_hand(section, parameters):
     flown = np.abs(held.states[:, 9]).max() * model.momentum_unit
     assert flown == pytest.approx(peak, rel=1e-3)
     assert held.attitude_miss < 1e-6
+
+
+@pytest.mark.parametrize("steps", [400, 1])
+def test_less_smoothing_from_the_last_plan_is_the_same_optimum(
+    section, parameters, monkeypatch, steps
+):
+    """To 1e-7 of the cost in fewer steps; where it takes too many, the usual solver finds it."""
+    slew = slew_of(guidance_model(parameters), parameters, "half", Mesh(6, 5), 116.0)
+    guess, stages = slew.guess((0.2, 0.0)), section.numerics.smoothing[:-1]
+    monkeypatch.setitem(guidance_problem.FOLLOWING, "max_iter", steps)
+    guidance = Guidance(slew.model, slew.stated(), slew.mesh)
+    followed = guidance.solve(guess, stages)
+    monkeypatch.setattr(guidance, "_following_solver", guidance._solver)
+    usual = guidance.solve(guess, stages)
+    assert followed.solution.converged and usual.solution.converged
+    assert followed.solution.objective == pytest.approx(usual.solution.objective, rel=1e-7)
+    assert (followed.iterations < usual.iterations) == (steps > 1)
 
 
 def test_half_turn_in_the_printed_time_is_refused(section, parameters):

@@ -241,6 +241,11 @@ class IpoptSolver:
             ours["hess_lag"] = program.hessian
         self._solver = ca.nlpsol("solver", "ipopt", symbols, ours)
 
+    @property
+    def hessian(self) -> ca.Function:
+        """The program's `hessian`, for another solver of it to use."""
+        return self._solver.get_function("nlp_hess_l")
+
     def solve(
         self, guess: np.ndarray | Sequence[float], parameters: Sequence[float] = ()
     ) -> Solution:

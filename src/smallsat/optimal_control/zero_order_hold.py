@@ -62,8 +62,8 @@ class HeldControl:
         everywhere = (starts, controls, times, ca.repmat(parameters, 1, pieces))
         last = (states[:, -1], parameters)
 
-        after, running = piece.values().map(pieces)(*everywhere)
-        conditions, final_cost = end.values()(*last)
+        after, conditions = piece.values().map(pieces)(*everywhere), end.values()(*last)
+        cost = ca.sum2(piece.costs().map(pieces)(*everywhere)) + end.costs()(*last)
         variables = ca.vertcat(ca.vec(states), ca.vec(controls))
         constraints = ca.vertcat(ca.vec(after - states), conditions)
         factors = ca.MX.sym("lam_f"), ca.MX.sym("lam_g", constraints.numel())
@@ -104,7 +104,7 @@ class HeldControl:
         )
         self.program = NonlinearProgram(
             variables,
-            ca.sum2(running) + final_cost,
+            cost,
             constraints,
             lower,
             upper,
@@ -153,8 +153,12 @@ class _Stage:
     cost: Any
 
     def values(self) -> ca.Function:
-        """Values and cost."""
-        return ca.Function("values", list(self.symbols), [self.result, self.cost])
+        """The values."""
+        return ca.Function("values", list(self.symbols), [self.result])
+
+    def costs(self) -> ca.Function:
+        """The cost, apart from the values, which are not computed for it."""
+        return ca.Function("costs", list(self.symbols), [self.cost])
 
     def slopes(self) -> ca.Function:
         """Derivatives of the values, dense."""

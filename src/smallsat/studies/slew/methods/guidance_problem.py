@@ -6,7 +6,8 @@ T (3) and the momentum given by the wheels (3).
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import casadi as ca
@@ -25,6 +26,13 @@ from smallsat.studies.slew.parameters import Parameters
 CONTROLS = 3
 # Kepler's equation is solved by repeated substitution to this, rad: each step gains a factor e.
 KEPLER_ERROR = 1e-13
+# Of IPOPT, where a solution of more smoothing is the guess: a large barrier, or a push away from
+# the bounds, would lead away from it.
+FOLLOWING: dict[str, Any] = {
+    "mu_strategy": "monotone",
+    "mu_init": 1e-5,
+    "warm_start_init_point": "yes",
+}
 
 
 @dataclass(frozen=True)
@@ -285,12 +293,18 @@ class Guidance:
 
     def __init__(self, model: Model, stated: OptimalControlProblem, mesh: Mesh, **options: Any):
         self.model, self.method = model, GaussPseudospectral(stated, mesh)
-        settings: dict[str, Any] = {
+        self._settings: dict[str, Any] = {
             "tol": 1e-9,
             "max_iter": 400,
             "mu_strategy": "adaptive",
         } | options
-        self._solver = IpoptSolver(self.method.program, **settings)
+        self._solver = IpoptSolver(self.method.program, **self._settings)
+
+    @cached_property
+    def _following_solver(self) -> IpoptSolver:
+        program = replace(self.method.program, hessian=self._solver.hessian)
+        settings: dict[str, Any] = self._settings | FOLLOWING
+        return IpoptSolver(program, **settings)
 
     def solve(self, guess: Guess | np.ndarray, smoothing: Sequence[float]) -> Result:
         """Solve with ever less smoothing; each stage begins where the last one ended.
@@ -299,11 +313,15 @@ class Guidance:
         """
         z = guess if isinstance(guess, np.ndarray) else self.method.guess(*guess)
         seconds, iterations = 0.0, 0
-        for value in smoothing:
-            solution = self._solver.solve(z, [value])
+        for stage, value in enumerate(smoothing):
+            # Where the shorter way leads nowhere, the usual one is gone.
+            for solver in ([self._following_solver] if stage else []) + [self._solver]:
+                solution = solver.solve(z, [value])
+                seconds += solution.seconds
+                iterations += solution.iterations
+                if solution.converged:
+                    break
             z = solution.variables
-            seconds += solution.seconds
-            iterations += solution.iterations
         plan = self.method.plan(z, solution.multipliers)
         weights = np.polynomial.legendre.leggauss(self.method.mesh.nodes)[1] / 2.0
         size = np.linalg.norm(plan.controls, axis=1).reshape(self.method.mesh.segments, -1)
