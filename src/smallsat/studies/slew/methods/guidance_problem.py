@@ -293,12 +293,13 @@ class Guidance:
 
     def __init__(self, model: Model, stated: OptimalControlProblem, mesh: Mesh, **options: Any):
         self.model, self.method = model, GaussPseudospectral(stated, mesh)
-        self._settings: dict[str, Any] = {
+        settings: dict[str, Any] = {
             "tol": 1e-9,
             "max_iter": 400,
             "mu_strategy": "adaptive",
         } | options
-        self._solver = IpoptSolver(self.method.program, **self._settings)
+        self._settings = settings
+        self._solver = IpoptSolver(self.method.program, **settings)
 
     @cached_property
     def _following_solver(self) -> IpoptSolver:
