@@ -1,10 +1,10 @@
 """Minimum time through rings as one nonlinear program with a phase a segment.
 
-The control is held over equal pieces of a segment, and a piece is flown in closed form, so that the
-program's trajectory is exact and any integrator can fly it anew. A ring is crossed at its centre
-along its normal by construction: the state there is the centre, and the normal times a speed, which
-is a variable. Units are scaled: lengths by the power of ten below the longest way, 100 m on the
-document's courses, times by sqrt(length / thrust).
+The control is held over equal pieces of a segment, and the segment is flown in closed form, so that
+the program's trajectory is exact and any integrator can fly it anew. A ring is crossed at its
+centre along its normal by construction: the state there is the centre, and the normal times a
+speed, which is a variable. Units are scaled: lengths by the power of ten below the longest way,
+100 m on the document's courses, times by sqrt(length / thrust).
 """
 
 from dataclasses import dataclass
@@ -197,7 +197,7 @@ class CourseProgram:
         return np.empty((self.rings, 0))
 
     def restrictions(self, of: Symbols) -> Any:
-        """What has to vanish beside the gaps between pieces: nothing."""
+        """What has to vanish beside the gaps between segments: nothing."""
         return ca.MX(0, 1)
 
     def solve(
