@@ -1,10 +1,11 @@
-"""Eight numbers side by side in a processor's vector registers, for compiled functions.
+"""Four numbers side by side in a processor's vector registers, for compiled functions.
 
 A function that is written for numbers and for arrays of them is compiled for lanes too, as it
 stands, if it decides by `where`, `at_most` and their like in place of branches, which must be the
 same in all lanes. Each lane then goes through the same operations in the same order as a number on
 its own and ends with the same bits, whatever the others hold. LLVM has such vectors on every
-processor, with as many registers as it takes.
+processor, with as many registers as it takes: one for four numbers where they are 256 bits wide.
+More lanes wait longer for the last of them.
 """
 
 import operator
@@ -19,7 +20,7 @@ from numba.core.typing.templates import AbstractTemplate, infer_global, signatur
 from numba.extending import lower_builtin, lower_cast, models, register_model
 from numba.np import arrayobj
 
-LANES = 8
+LANES = 4
 
 # The decorator's own type would ask callers for the first argument, which Numba gives.
 intrinsic: Any = extending.intrinsic
@@ -29,7 +30,7 @@ _SCALARS = (types.Float, types.Integer)
 
 
 class LanesType(types.Type):
-    """Type of eight floats side by side."""
+    """Type of floats side by side."""
 
     def __init__(self) -> None:
         super().__init__(name=f"lanes({LANES})")

@@ -16,7 +16,7 @@ closed loops under five laws it took 11 iterations on average and never more tha
 programs included.
 
 Every decision but where to stop is taken without a branch, so that the method also solves as many
-programs as there are `smallsat.dynamics.lanes` at once, in about three times the time of one.
+programs as there are `smallsat.dynamics.lanes` at once, in about 1.4 times the time of one.
 
 Why not a library: a full study solves several million programs, and those that
 `smallsat.studies.rendezvous.methods.solver_comparison` measures take many times as long for them.
