@@ -1,4 +1,4 @@
-"""The race's first rings: our exact pieces, multiple shooting in CasADi, single shooting in SciPy.
+"""The race's first rings: our exact segments, multiple shooting in CasADi, single shooting in SciPy.
 
 All three hold the thrust over the same pieces and begin with the same arcs through the rings. What
 is judged is the thrust that they found, flown anew through all segments without a stop.
@@ -78,7 +78,7 @@ def problem() -> Problem:
         REQUIRED,
         error,
         (
-            Contender("exact pieces, IPOPT", "smallsat", _ours),
+            Contender("exact segments, IPOPT", "smallsat", _ours),
             Contender("CasADi multiple shooting, IPOPT", "casadi", _casadi),
             Contender("SciPy single shooting, SLSQP", "scipy", _scipy),
         ),
