@@ -185,31 +185,38 @@ def test_programs_in_lanes_end_as_alone(law, limit):
     record = guidance.settings([law])[0]
     random = np.random.default_rng(5)
     for phase, scale in enumerate((1000.0, 100.0, 3.0)):
-        stages = law.horizons[phase]
-        states = scale * random.normal(size=(LANES, 6)) * np.r_[np.ones(3), np.full(3, 1e-3)]
+        states = scale * random.normal(size=(8, 6)) * np.r_[np.ones(3), np.full(3, 1e-3)]
         states[1], states[4], states[6] = 1e-3 * states[1], np.nan, 30.0 * states[6]
-        together = together_for(max(law.horizons))
-        for lane, state in enumerate(states):
-            write_lane(record, phase, state, 0.0, together, lane)
-        bounds = bound_count(record, phase)
-        rows = solve_together(
-            with_bounds(together.programs, bounds), stages, together.scaled, together.work,
-            TOLERANCE, limit, together.ends,
-        )  # fmt: skip
-        work = together.work
-        assert len(set(together.ends[1])) > 1
-        for lane, state in enumerate(states):
-            program, _ = write_program(record, phase, state, 0.0, empty_program(stages))
-            alone = workspace(stages, PLANES, BOUNDS)
-            scaled = state / record["scales"][phase]
-            solution = solve(program, stages, scaled, alone, TOLERANCE, limit)
-            assert (solution.status, solution.iterations) == tuple(together.ends[:, lane])
-            for found, expected in (
-                (work.controls[:stages, :, lane], solution.controls),
-                (work.rows[EXCESS, :rows, lane], solution.excesses),
-                (work.rows[WEIGHT, :rows, lane], solution.weights),
-            ):
-                assert np.array_equal(found, expected, equal_nan=True)
+        for some in states.reshape(-1, LANES, 6):
+            _end_as_alone(law, record, phase, some, limit)
+
+
+def _end_as_alone(law, record, phase, states, limit):
+    """Programs of as many states as there are lanes, together and one by one."""
+    stages = law.horizons[phase]
+    together = together_for(max(law.horizons))
+    for lane, state in enumerate(states):
+        write_lane(record, phase, state, 0.0, together, lane)
+    bounds = bound_count(record, phase)
+    rows = solve_together(
+        with_bounds(together.programs, bounds), stages, together.scaled, together.work,
+        TOLERANCE, limit, together.ends,
+    )  # fmt: skip
+    work = together.work
+    # Some go on when others have ended.
+    assert limit < ITERATION_LIMIT or len(set(together.ends[1])) > 1
+    for lane, state in enumerate(states):
+        program, _ = write_program(record, phase, state, 0.0, empty_program(stages))
+        alone = workspace(stages, PLANES, BOUNDS)
+        scaled = state / record["scales"][phase]
+        solution = solve(program, stages, scaled, alone, TOLERANCE, limit)
+        assert (solution.status, solution.iterations) == tuple(together.ends[:, lane])
+        for found, expected in (
+            (work.controls[:stages, :, lane], solution.controls),
+            (work.rows[EXCESS, :rows, lane], solution.excesses),
+            (work.rows[WEIGHT, :rows, lane], solution.weights),
+        ):
+            assert np.array_equal(found, expected, equal_nan=True)
 
 
 def test_programs_of_one_shape_have_their_rows_in_common(law, laws):
