@@ -1,4 +1,4 @@
-"""The race's first rings: our exact segments, multiple shooting in CasADi, single shooting in SciPy.
+"""The race's first rings: our exact segments, multiple shooting by CasADi, single by SciPy.
 
 All three hold the thrust over the same pieces and begin with the same arcs through the rings. What
 is judged is the thrust that they found, flown anew through all segments without a stop.
