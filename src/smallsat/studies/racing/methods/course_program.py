@@ -277,8 +277,8 @@ class CourseProgram:
         return self._ipopt(mu_strategy="monotone", mu_init=1e-6, warm_start_init_point="yes")
 
     def _ipopt(self, **barrier: Any) -> IpoptSolver:
-        # Long chains of small blocks: approximate minimum degree orders them best, and steps are
-        # refined where their residual asks for it alone.
+        # Of MUMPS's orders approximate minimum degree is the best for chains of segments, and steps
+        # are refined where their residual asks for it alone.
         linear_algebra = UNPERMUTED | {"mumps_pivot_order": 0, "min_refinement_steps": 0}
         return IpoptSolver(
             self._program[0], expand=True, tol=1e-9, max_iter=150, **linear_algebra, **barrier

@@ -316,7 +316,8 @@ class Guidance:
         seconds, iterations = 0.0, 0
         for stage, value in enumerate(smoothing):
             # Where the shorter way leads nowhere, the usual one is gone.
-            for solver in ([self._following_solver] if stage else []) + [self._solver]:
+            solvers = [self._following_solver, self._solver] if stage else [self._solver]
+            for solver in solvers:
                 solution = solver.solve(z, [value])
                 seconds += solution.seconds
                 iterations += solution.iterations
