@@ -14,6 +14,9 @@ Numbers = tuple[Callable[[np.ndarray], np.ndarray], Callable[[np.ndarray], np.nd
 # MUMPS permutes a matrix towards a large diagonal before it orders the elimination, which leaves a
 # poor order. What it is for, constraints that nearly depend on one another, most programs have not.
 UNPERMUTED: dict[str, Any] = {"mumps_permuting_scaling": 0}
+# For a guess next to an optimum, with a small first barrier of the caller's (``mu_init``): a large
+# one, or a push away from the bounds, would lead away from it.
+NEXT_TO_OPTIMUM: dict[str, Any] = {"mu_strategy": "monotone", "warm_start_init_point": "yes"}
 # A variable so near a bound counts as on it.
 AT_BOUND = 1e-9
 

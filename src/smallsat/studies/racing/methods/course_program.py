@@ -16,6 +16,7 @@ import numpy as np
 
 from smallsat.dynamics.orbits.clohessy_wiltshire import held_input_rows, transition, transition_rows
 from smallsat.optimal_control.nonlinear_program import (
+    NEXT_TO_OPTIMUM,
     UNPERMUTED,
     IpoptSolver,
     NonlinearProgram,
@@ -273,8 +274,7 @@ class CourseProgram:
 
     @cached_property
     def _refining_solver(self) -> IpoptSolver:
-        # Close to the optimum a large barrier, or a push away from the bounds, leads away from it.
-        return self._ipopt(mu_strategy="monotone", mu_init=1e-6, warm_start_init_point="yes")
+        return self._ipopt(mu_init=1e-6, **NEXT_TO_OPTIMUM)
 
     def _ipopt(self, **barrier: Any) -> IpoptSolver:
         # Of MUMPS's orders approximate minimum degree is the best for chains of segments, and steps

@@ -20,19 +20,14 @@ from smallsat.optimal_control.gauss_pseudospectral import (
     OptimalControlProblem,
     Plan,
 )
-from smallsat.optimal_control.nonlinear_program import IpoptSolver, Solution
+from smallsat.optimal_control.nonlinear_program import NEXT_TO_OPTIMUM, IpoptSolver, Solution
 from smallsat.studies.slew.parameters import Parameters
 
 CONTROLS = 3
 # Kepler's equation is solved by repeated substitution to this, rad: each step gains a factor e.
 KEPLER_ERROR = 1e-13
-# Of IPOPT, where a solution of more smoothing is the guess: a large barrier, or a push away from
-# the bounds, would lead away from it.
-FOLLOWING: dict[str, Any] = {
-    "mu_strategy": "monotone",
-    "mu_init": 1e-5,
-    "warm_start_init_point": "yes",
-}
+# Of IPOPT, where a solution with more smoothing is the guess.
+FOLLOWING = NEXT_TO_OPTIMUM | {"mu_init": 1e-5}
 
 
 @dataclass(frozen=True)
