@@ -14,7 +14,7 @@ from smallsat.optimal_control.gauss_pseudospectral import (
     legendre_gauss,
 )
 from smallsat.optimal_control.nonlinear_program import IpoptSolver
-from smallsat.optimal_control.switching_times import arcs_of, refine
+from smallsat.optimal_control.switching_times import Arcs, arcs_of, refine
 from smallsat.optimal_control.zero_order_hold import HeldControl
 
 FREE = np.full(2, np.inf)
@@ -100,6 +100,21 @@ def test_switching_time_of_the_double_integrator():
     assert arcs.switches()[0][1] == pytest.approx(1.0, abs=1e-8)
 
 
+def test_no_arc_is_shorter_than_nothing():
+    """Axes that switch together by symmetry, read as one after the other: the arc between is 0."""
+    controls = np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]])
+    arcs, refined = refine(
+        lambda x, u, t: ca.vertcat(x[1], u[0], x[3], u[1]),
+        np.zeros(4),
+        # Of the second axis what is left once the first one's conditions hold.
+        lambda x, final: ca.vertcat(x[0] - 1.0, x[1] + x[3]),
+        Arcs(controls, np.array([0.9, 0.2, 0.9])),
+    )
+    assert refined.converged
+    assert (arcs.durations >= 0.0).all()
+    np.testing.assert_allclose(arcs.durations, [1.0, 0.0, 1.0], atol=1e-7)
+
+
 def test_held_control_approaches_the_optimum_from_above():
     """Cost 6 by hand; with n pieces it is 6 / (1 - 1/n^2), to 1e-7."""
     pieces = 20
@@ -113,7 +128,8 @@ def test_held_control_approaches_the_optimum_from_above():
 
 
 def test_derivatives_of_a_held_control_are_those_of_its_program():
-    """What is put together from pieces, against CasADi's own of the whole, to 1e-14."""
+    """What is put together from pieces, against CasADi's own of the whole, to 1e-13."""
+    pieces, final = 4, 1.3
     stated = OptimalControlProblem(
         initial=np.array([0.1, 0.2, 0.3]),
         controls=2,
@@ -125,21 +141,48 @@ def test_derivatives_of_a_held_control_are_those_of_its_program():
         end_cost=lambda x, final, p: ca.exp(x[0]) * p[0] + x[1] * x[2] * final,
         state_bounds=np.array([np.full(3, -9.0), np.full(3, 9.0)]),
         control_bounds=np.array([[-1.0, -1.0], [1.0, 1.0]]),
-        final_time=(1.3, 1.3),
+        final_time=(final, final),
         parameters=1,
     )
-    program = HeldControl(stated, 4).program
-    x, p = program.variables, program.parameters
-    factor, factors = ca.MX.sym("lam_f"), ca.MX.sym("lam_g", program.constraints.numel())
-    lagrangian = factor * program.objective + ca.dot(factors, program.constraints)
-    whole = [ca.jacobian(program.constraints, x), ca.triu(ca.hessian(lagrangian, x)[0])]
-    expected = ca.Function("whole", [x, p, factor, factors], whole)
-    jacobian = ca.Function("jacobian", [x, p], [program.jacobian])
+    x, u, p = ca.SX.sym("x", 3, pieces), ca.SX.sym("u", 2, pieces), ca.SX.sym("p", 1)
+    start, cost, constraints, h = ca.SX(stated.initial), 0.0, [], final / pieces
+    for i in range(pieces):
+        cost += h * stated.running_cost(start, u[:, i], i * h, p)
+        after = start
+        for time in (i * h, (i + 0.5) * h):
+            k1 = stated.rate(after, u[:, i], time, p)
+            k2 = stated.rate(after + h / 4 * k1, u[:, i], time + h / 4, p)
+            k3 = stated.rate(after + h / 4 * k2, u[:, i], time + h / 4, p)
+            k4 = stated.rate(after + h / 2 * k3, u[:, i], time + h / 2, p)
+            after += h / 12 * (k1 + 2 * k2 + 2 * k3 + k4)
+        constraints.append(after - x[:, i])
+        start = x[:, i]
+    cost += stated.end_cost(start, final, p)
+    everything = ca.vertcat(*constraints, stated.terminal(start, final))
+    unknown, factor = ca.vertcat(ca.vec(x), ca.vec(u)), ca.SX.sym("lam_f")
+    factors = ca.SX.sym("lam_g", everything.numel())
+    lagrangian = factor * cost + ca.dot(factors, everything)
+    expected = ca.Function(
+        "whole",
+        [unknown, p, factor, factors],
+        [
+            everything,
+            ca.jacobian(everything, unknown),
+            ca.triu(ca.hessian(lagrangian, unknown)[0]),
+        ],
+    )
+    program = HeldControl(stated, pieces).program
+    jacobian = ca.Function(
+        "jacobian",
+        [program.variables, program.parameters],
+        [program.constraints, program.jacobian],
+    )
     random = np.random.default_rng(3)
-    z, lam = random.uniform(0.1, 0.9, x.numel()), random.normal(size=factors.numel())
-    first, second = (output.full() for output in expected(z, 0.3, 0.7, lam))
-    np.testing.assert_allclose(jacobian(z, 0.3).full(), first, rtol=0, atol=1e-14)
-    np.testing.assert_allclose(program.hessian(z, 0.3, 0.7, lam).full(), second, rtol=0, atol=1e-14)
+    z, lam = random.uniform(0.1, 0.9, unknown.numel()), random.normal(size=factors.numel())
+    *first, second = (output.full() for output in expected(z, 0.3, 0.7, lam))
+    for ours, theirs in zip(jacobian(z, 0.3), first, strict=True):
+        np.testing.assert_allclose(ours.full(), theirs, rtol=0, atol=1e-13)
+    np.testing.assert_allclose(program.hessian(z, 0.3, 0.7, lam).full(), second, rtol=0, atol=1e-13)
 
 
 def test_a_held_control_needs_one_final_time():

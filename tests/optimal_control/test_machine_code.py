@@ -1,4 +1,4 @@
-"""Chains of steps as machine code: against CasADi's own evaluation, to the last bit."""
+"""Functions as machine code: against CasADi's own evaluation, to the last bit."""
 
 import casadi as ca
 import numpy as np
@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from smallsat.optimal_control.machine_code import OPERATIONS, Chain
+from smallsat.optimal_control.machine_code import OPERATIONS, Chain, Everywhere
 
 x, p, each = ca.SX.sym("x", 3), ca.SX.sym("p", 2), ca.SX.sym("e", 2)
 
@@ -79,3 +79,24 @@ def test_what_is_not_dense_is_refused():
 def test_other_shapes_are_refused(state, parameters, own):
     with pytest.raises(ValueError, match="is given"):
         EVERYTHING_CHAIN(np.zeros(state), np.zeros(parameters), np.zeros(own))
+
+
+def test_a_function_everywhere_has_the_bits_of_casadis_map():
+    """Of matrices, in an expression of its own, with an argument that CasADi knows to be zero."""
+    u, t = ca.SX.sym("u", 2, 2), ca.SX.sym("t")
+    values = ca.vertcat(ca.sin(x[0]) * x[1] / u[1, 0] + t, ca.sqrt(2.0 + u[0, 1] ** 2 + x[2] ** 2))
+    slopes = ca.densify(ca.jacobian(values, x))
+    function, places = ca.Function("f", [x, u, t], [slopes]), 5
+    ours, theirs = Everywhere(function, places), function.map(places)
+    random = np.random.default_rng(5)
+    at, control = random.normal(size=(3, places)), random.normal(size=(2, 2 * places))
+    states, controls = ca.MX.sym("x", 3, places), ca.MX.sym("u", 2, 2 * places)
+    still = ca.MX.zeros(1, places)
+    wrapped = ca.Function("g", [states, controls], [2.0 * ours(states, controls, still)])
+    expected = 2.0 * theirs(at, control, np.zeros(places)).full()
+    assert np.array_equal(wrapped(at, control).full(), expected)
+
+
+def test_a_sparse_function_is_not_applied_everywhere():
+    with pytest.raises(ValueError, match="f: dense matrices alone"):
+        Everywhere(ca.Function("f", [x], [ca.SX(3, 1)]), 2)

@@ -217,7 +217,7 @@ def test_the_deadzone_forces_thrust_to_zero(parameters, section, monkeypatch):
         {"cubesat": "Mo", "duration_s": 10.0, **costates, "pz": -0.2},
     ]
     solved = SimpleNamespace(segments=segments)
-    monkeypatch.setattr(listing_races, "solve_listing", lambda *_: solved)
+    monkeypatch.setattr(listing_races, "solve_listing", lambda *_, paths: solved)
     table = without_thrust(parameters, section)
     assert set(table["scenario"]) == {"scenario-1"}
     assert len(table) == 1 + len(section.listing.other_tolerances)

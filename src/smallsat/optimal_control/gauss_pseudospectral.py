@@ -136,7 +136,10 @@ class GaussPseudospectral:
 
         final = ca.SX.sym("t_f")
         parameters = ca.SX.sym("p", problem.parameters)
-        h = final / mesh.segments
+        # One that is given is a number to all that depends on it: nothing is differentiated by it.
+        earliest, latest = problem.final_time
+        ending: Any = ca.SX(earliest) if earliest == latest else final
+        h = ending / mesh.segments
         start: Any = ca.DM(problem.initial)
         # The constraints are the difference of what is linear in the states, which couples all
         # points of a segment, and of the dynamics, of which each belongs to one point.
@@ -157,9 +160,9 @@ class GaussPseudospectral:
             pointwise += [ca.vec(h / 2.0 * f), h / 2.0 * ca.mtimes(f, weights)]
             objective += h / 2.0 * ca.dot(weights, ca.vertcat(*costs))
             start = end
-        coupled.append(ca.vertcat(problem.terminal(start, final)))
+        coupled.append(ca.vertcat(problem.terminal(start, ending)))
         pointwise.append(ca.SX.zeros(coupled[-1].shape[0]))
-        objective += problem.end_cost(start, final, parameters)
+        objective += problem.end_cost(start, ending, parameters)
         lower, upper = (
             np.r_[
                 np.tile(

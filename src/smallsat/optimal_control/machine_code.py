@@ -1,13 +1,13 @@
-"""Symbolic steps as machine code: integrations in a tenth of the time of CasADi's interpreter.
+"""Symbolic functions as machine code, applied again and again: faster than CasADi's interpreter.
 
 CasADi hands out the instructions of a function, and LLVM, which Numba brings along, makes machine
-code of them: one for one, in their order, without optimisation. So a chain has the same bits as
-CasADi's own evaluation, on every processor, and is ready in a fraction of a second.
+code of them: one for one, in their order, without optimisation. So it has the same bits as CasADi's
+own evaluation, on every processor, and is ready in a fraction of a second.
 """
 
 import ctypes
 import struct
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 import casadi as ca
@@ -31,19 +31,17 @@ OPERATIONS = {
     ca.OP_CONSTPOW: "call double @pow(double {0}, double {1})",
 }
 
-_CHAIN = """
+_LOOP = """
 declare double @llvm.sqrt.f64(double)
 declare double @sin(double)
 declare double @cos(double)
 declare double @pow(double, double)
 
-define void @chain(ptr %a0, ptr %a1, ptr %each, i64 %count) {{
+define void @loop({arguments}, i64 %count) {{
 entry:
   br label %step
 step:
   %k = phi i64 [0, %entry], [%next, %step]
-  %offset = mul i64 %k, {width}
-  %a2 = getelementptr double, ptr %each, i64 %offset
 {body}
   %next = add i64 %k, 1
   %more = icmp slt i64 %next, %count
@@ -52,6 +50,41 @@ end:
   ret void
 }}
 """
+
+
+class _Loop:
+    """Machine code that evaluates a function for k = 0, 1, ..., at least once.
+
+    It takes the addresses of the function's arguments and of its result. An argument, or the
+    result, with a ``width`` has its numbers for k so many times k further on.
+    """
+
+    def __init__(self, function: ca.Function, into: str, widths: dict[str, int]):
+        places = list(dict.fromkeys([f"a{k}" for k in range(function.n_in())] + [into]))
+        lines = []
+        for place in places:
+            base = f"%{place}"
+            if place in widths:
+                lines.append(f"%offset_{place} = mul i64 %k, {widths[place]}")
+                lines.append(f"%at_{place} = getelementptr double, ptr {base}, i64 %offset_{place}")
+            else:
+                lines.append(f"%at_{place} = getelementptr double, ptr {base}, i64 0")
+        lines += _translated(function, into)
+        llvm.initialize_native_target()
+        llvm.initialize_native_asmprinter()
+        arguments = ", ".join(f"ptr %{place}" for place in places)
+        body = "\n".join(f"  {line}" for line in lines)
+        module = llvm.parse_assembly(_LOOP.format(arguments=arguments, body=body))
+        machine = llvm.Target.from_default_triple().create_target_machine(opt=0)
+        # The code lives as long as its engine.
+        self._engine = llvm.create_mcjit_compiler(module, machine)
+        self._engine.finalize_object()
+        signature = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * len(places), ctypes.c_int64)
+        self._run = signature(self._engine.get_function_address("loop"))
+
+    def __call__(self, arrays: Iterable[np.ndarray], count: int) -> None:
+        """Evaluate it ``count`` times, on contiguous arrays."""
+        self._run(*(array.ctypes.data for array in arrays), count)
 
 
 class Chain:
@@ -74,17 +107,7 @@ class Chain:
             step.sparsity_out(0).is_dense()
         ):
             raise ValueError(f"{step.name()}: a chain takes dense vectors; use casadi.densify")
-        body = "\n".join(f"  {line}" for line in _translated(step))
-        llvm.initialize_native_target()
-        llvm.initialize_native_asmprinter()
-        module = llvm.parse_assembly(_CHAIN.format(width=step.numel_in(2), body=body))
-        machine = llvm.Target.from_default_triple().create_target_machine(opt=0)
-        # The code lives as long as its engine.
-        self._engine = llvm.create_mcjit_compiler(module, machine)
-        self._engine.finalize_object()
-        pointer = ctypes.c_void_p
-        signature = ctypes.CFUNCTYPE(None, pointer, pointer, pointer, ctypes.c_int64)
-        self._run = signature(self._engine.get_function_address("chain"))
+        self._loop = _Loop(step, "a0", {"a2": step.numel_in(2)})
         self._shapes = [step.numel_in(k) for k in range(3)]
 
     def __call__(self, x: np.ndarray, p: np.ndarray, each: np.ndarray) -> np.ndarray:
@@ -95,34 +118,91 @@ class Chain:
         if end.shape != (n,) or common.shape != (m,) or own.shape[1:] != (width,) or not len(own):
             shapes = f"{end.shape}, {common.shape} and {own.shape}"
             raise ValueError(f"a chain of ({n},), ({m},) and (steps, {width}) is given {shapes}")
-        self._run(end.ctypes.data, common.ctypes.data, own.ctypes.data, len(own))
+        self._loop((end, common, own), len(own))
         return end
 
 
-def _translated(step: ca.Function) -> Iterator[str]:
-    """Instructions of a function in LLVM's language; its results go where x came from."""
-    # What each of CasADi's registers holds now; results wait until all of x has been read.
+class Everywhere(ca.Callback):
+    """A function at many places at once, as CasADi's ``map`` has it, without derivatives.
+
+    Parameters
+    ----------
+    function
+        Of scalar symbols (SX), with one result; all dense.
+    places
+        How many: arguments (n, m) of the function are (n, m places) here, and so is its result.
+
+    Raises
+    ------
+    ValueError
+        Where something is not dense, or has an operation that is not translated.
+    """
+
+    def __init__(self, function: ca.Function, places: int):
+        super().__init__()
+        given = [function.sparsity_in(k) for k in range(function.n_in())]
+        taken = function.sparsity_out(0)
+        if not all(one.is_dense() for one in (*given, taken)):
+            raise ValueError(f"{function.name()}: dense matrices alone; use casadi.densify")
+        self._places = places
+        self._given, self._taken = (
+            [ca.Sparsity.dense(one.size1(), one.size2() * places) for one in of]
+            for of in (given, [taken])
+        )
+        widths = {f"a{k}": one.numel() for k, one in enumerate(given)}
+        self._loop = _Loop(function, "result", widths | {"result": taken.numel()})
+        self.construct(f"{function.name()}_everywhere", {})
+
+    def get_n_in(self) -> int:
+        """Number of arguments."""
+        return len(self._given)
+
+    def get_n_out(self) -> int:
+        """One result."""
+        return 1
+
+    def get_sparsity_in(self, i: int) -> ca.Sparsity:
+        """Shape of an argument."""
+        return self._given[i]
+
+    def get_sparsity_out(self, i: int) -> ca.Sparsity:
+        """Shape of the result."""
+        return self._taken[i]
+
+    def has_eval_buffer(self) -> bool:
+        """It works on CasADi's own memory."""
+        return True
+
+    def eval_buffer(self, given: Sequence[Any], taken: Sequence[Any]) -> int:
+        """Fill the result."""
+        self._loop((np.frombuffer(one) for one in (*given, *taken)), self._places)
+        return 0
+
+
+def _translated(function: ca.Function, into: str) -> Iterator[str]:
+    """Instructions of a function in LLVM's language, with its first result to a place."""
+    # What each of CasADi's registers holds now; results wait until all arguments have been read.
     held: dict[int, str] = {}
     stores = []
-    for k in range(step.n_instructions()):
-        operation = step.instruction_id(k)
-        taken, given = step.instruction_input(k), step.instruction_output(k)
+    for k in range(function.n_instructions()):
+        operation = function.instruction_id(k)
+        taken, given = function.instruction_input(k), function.instruction_output(k)
         if operation == ca.OP_CONST:
-            held[given[0]] = _literal(step.instruction_constant(k))
+            held[given[0]] = _literal(function.instruction_constant(k))
         elif operation == ca.OP_INPUT:
             argument, element = taken
-            yield f"%p{k} = getelementptr double, ptr %a{argument}, i64 {element}"
+            yield f"%p{k} = getelementptr double, ptr %at_a{argument}, i64 {element}"
             yield f"%v{k} = load double, ptr %p{k}"
             held[given[0]] = f"%v{k}"
         elif operation == ca.OP_OUTPUT:
-            stores.append(f"%p{k} = getelementptr double, ptr %a0, i64 {given[1]}")
+            stores.append(f"%p{k} = getelementptr double, ptr %at_{into}, i64 {given[1]}")
             stores.append(f"store double {held[taken[0]]}, ptr %p{k}")
         elif operation in OPERATIONS:
             operands = [held[register] for register in taken]
             yield f"%v{k} = " + OPERATIONS[operation].format(*operands)
             held[given[0]] = f"%v{k}"
         else:
-            name = step.name()
+            name = function.name()
             raise ValueError(f"{name}: CasADi's operation {operation} has no translation yet")
     yield from stores
 

@@ -14,6 +14,8 @@ Numbers = tuple[Callable[[np.ndarray], np.ndarray], Callable[[np.ndarray], np.nd
 # MUMPS permutes a matrix towards a large diagonal before it orders the elimination, which leaves a
 # poor order. What it is for, constraints that nearly depend on one another, most programs have not.
 UNPERMUTED: dict[str, Any] = {"mumps_permuting_scaling": 0}
+# Approximate minimum degree, of MUMPS's orders the best for chains of stages and of segments.
+MINIMUM_DEGREE: dict[str, Any] = UNPERMUTED | {"mumps_pivot_order": 0}
 # For a guess next to an optimum, with a small first barrier of the caller's (``mu_init``): a large
 # one, or a push away from the bounds, would lead away from it.
 NEXT_TO_OPTIMUM: dict[str, Any] = {"mu_strategy": "monotone", "warm_start_init_point": "yes"}
@@ -39,6 +41,8 @@ class NonlinearProgram:
     hessian
         Likewise of the Lagrangian, its upper triangle (n, n): a function of the variables, the
         parameters, a factor of the objective and one of each constraint.
+    called_back
+        What of the expressions calls Python back: CasADi itself does not keep it.
     """
 
     variables: Any
@@ -49,6 +53,7 @@ class NonlinearProgram:
     parameters: Any = None
     jacobian: Any = None
     hessian: ca.Function | None = None
+    called_back: tuple[ca.Callback, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -235,6 +240,8 @@ class IpoptSolver:
         if program.parameters is not None:
             symbols["p"] = program.parameters
         ours: dict[str, Any] = {"print_time": False, "expand": expand, "ipopt": settings}
+        # Sensitivities by the parameters are not asked for: they would take further derivatives.
+        ours |= {"calc_lam_p": False, "no_nlp_grad": True}
         if program.jacobian is not None:
             names = ["x", "p"], ["g", "jac_g_x"]
             inputs = [program.variables, symbols.get("p", ca.SX(0, 1))]

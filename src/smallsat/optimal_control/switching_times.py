@@ -118,4 +118,5 @@ def refine(
         np.full_like(lower, np.inf),
     )
     solution = IpoptSolver(program, tol=1e-11, bound_relax_factor=0.0).solve(arcs.durations)
-    return Arcs(arcs.controls, solution.variables), solution
+    # An arc that vanishes may be below its bound by rounding.
+    return Arcs(arcs.controls, np.maximum(solution.variables, lower)), solution

@@ -14,6 +14,7 @@ import casadi as ca
 import numpy as np
 
 from smallsat.optimal_control.gauss_pseudospectral import OptimalControlProblem
+from smallsat.optimal_control.machine_code import Everywhere
 from smallsat.optimal_control.nonlinear_program import NonlinearProgram
 
 # Common expressions are evaluated once.
@@ -62,7 +63,8 @@ class HeldControl:
         everywhere = (starts, controls, times, ca.repmat(parameters, 1, pieces))
         last = (states[:, -1], parameters)
 
-        after, conditions = piece.values().map(pieces)(*everywhere), end.values()(*last)
+        values = Everywhere(piece.values(), pieces)
+        after, conditions = values(*everywhere), end.values()(*last)
         cost = ca.sum2(piece.costs().map(pieces)(*everywhere)) + end.costs()(*last)
         variables = ca.vertcat(ca.vec(states), ca.vec(controls))
         constraints = ca.vertcat(ca.vec(after - states), conditions)
@@ -74,19 +76,21 @@ class HeldControl:
         conditions_at, at_end = np.arange(n * pieces, constraints.numel()), gaps[-1]
         given = n * pieces + np.arange(m * pieces).reshape(pieces, m)
         own = np.hstack([np.vstack([np.full(n, KNOWN), gaps[:-1]]), given])
+        slopes = Everywhere(piece.slopes(), pieces)
         jacobian = _placed(
             (constraints.numel(), variables.numel()),
             [
-                (piece.slopes().map(pieces)(*everywhere), gaps[:, None, :], own[:, :, None]),
+                (slopes(*everywhere), gaps[:, None, :], own[:, :, None]),
                 (-ca.MX.ones(n * pieces), gaps, gaps),
                 (end.slopes()(*last), conditions_at[None, :], at_end[:, None]),
             ],
         )
-        bends = piece.bends().map(pieces)(*everywhere, ca.repmat(factors[0], 1, pieces), by_piece)
+        bends = Everywhere(piece.bends(), pieces)
+        bent = bends(*everywhere, ca.repmat(factors[0], 1, pieces), by_piece)
         hessian = _placed(
             (variables.numel(), variables.numel()),
             [
-                (bends, own[:, None, :], own[:, :, None]),
+                (bent, own[:, None, :], own[:, :, None]),
                 (
                     end.bends()(*last, factors[0], factors[1][n * pieces :]),
                     at_end[None, :],
@@ -111,6 +115,7 @@ class HeldControl:
             parameters,
             jacobian,
             ca.Function("hessian", [variables, parameters, *factors], [hessian]),
+            (values, slopes, bends),
         )
 
     def guess(self, times, states, controls) -> np.ndarray:

@@ -16,8 +16,8 @@ import numpy as np
 
 from smallsat.dynamics.orbits.clohessy_wiltshire import held_input_rows, transition, transition_rows
 from smallsat.optimal_control.nonlinear_program import (
+    MINIMUM_DEGREE,
     NEXT_TO_OPTIMUM,
-    UNPERMUTED,
     IpoptSolver,
     NonlinearProgram,
     Solution,
@@ -277,9 +277,8 @@ class CourseProgram:
         return self._ipopt(mu_init=1e-6, **NEXT_TO_OPTIMUM)
 
     def _ipopt(self, **barrier: Any) -> IpoptSolver:
-        # Of MUMPS's orders approximate minimum degree is the best for chains of segments, and steps
-        # are refined where their residual asks for it alone.
-        linear_algebra = UNPERMUTED | {"mumps_pivot_order": 0, "min_refinement_steps": 0}
+        # Steps are refined where their residual asks for it alone.
+        linear_algebra = MINIMUM_DEGREE | {"min_refinement_steps": 0}
         return IpoptSolver(
             self._program[0], expand=True, tol=1e-9, max_iter=150, **linear_algebra, **barrier
         )

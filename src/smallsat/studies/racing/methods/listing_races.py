@@ -13,7 +13,7 @@ from smallsat.studies.racing.configuration import Configuration
 from smallsat.studies.racing.methods import attempts
 from smallsat.studies.racing.methods.flight import (
     COSTATE,
-    THRUST,
+    POINTS,
     minimum_cost,
     propagate_segment,
     ring_rows,
@@ -30,7 +30,7 @@ from smallsat.studies.racing.methods.races import (
 )
 from smallsat.studies.racing.model.course import Course
 from smallsat.studies.racing.model.cubesat import CubeSat
-from smallsat.studies.racing.model.shooting import costate_matrix, law_of, thrust_of
+from smallsat.studies.racing.model.shooting import costate_matrix, law_of, thrust_along
 from smallsat.studies.racing.parameters import Listing, Parameters
 
 # Variants of our solve of the listing.
@@ -52,15 +52,24 @@ def solve_listing(
     scenario: str,
     listing: Listing,
     cubesats: tuple[str, ...] = (),
+    *,
+    paths: bool = True,
 ) -> Tables:
-    """Every CubeSat of a scenario, or those named."""
+    """Every CubeSat of a scenario, or those named; trajectories only with ``paths``."""
     tables = Tables()
     race = parameters.races[scenario]
     for cubesat in race.cubesats:
         if not cubesats or cubesat.name in cubesats:
             key = {"scenario": scenario, "cubesat": cubesat.name, "solution": LISTING}
             _solve(
-                tables, key, parameters, listing, race.course, cubesat, section.optimum.intervals
+                tables,
+                key,
+                parameters,
+                listing,
+                race.course,
+                cubesat,
+                section.optimum.intervals,
+                paths=paths,
             )
     return tables
 
@@ -88,6 +97,8 @@ def _solve(
     course: Course,
     cubesat: CubeSat,
     intervals: int,
+    *,
+    paths: bool,
 ) -> None:
     states, times = [np.r_[cubesat.position, REST]], [0.0]
     solved: list[Segment] = []
@@ -108,10 +119,13 @@ def _solve(
     names = [segment_name(course, k) for k in range(course.rings + 1)]
     spent = []
     for k, one in enumerate(solved):
-        path = _flown(k, states[k], times[k], one, cubesat, parameters.mean_motion, listing)
-        tables.trajectories.append(path.assign(**key))
+        if paths:
+            path = _flown(k, states[k], times[k], one, cubesat, parameters.mean_motion, listing)
+            tables.trajectories.append(path.assign(**key))
+        duration = one.arrival - times[k]
+        thrust = _thrust(one.costate, duration, POINTS, cubesat, parameters.mean_motion, listing)
         spent.append(
-            float(np.trapezoid(np.linalg.norm(path[THRUST], axis=1), path["time_s"].to_numpy()))
+            float(np.trapezoid(np.linalg.norm(thrust, axis=1), dx=duration / (POINTS - 1)))
         )
         tables.segments.append(
             key
@@ -203,7 +217,9 @@ def variants(
     parts = []
     for name, changed in changes.items():
         for listing in flights(changed, section):
-            races = solve_listing(parameters, section, scenario, listing, cubesats).races
+            races = solve_listing(
+                parameters, section, scenario, listing, cubesats, paths=False
+            ).races
             # Which solve it is stands in the name of the variant.
             table = pd.DataFrame(races).drop(columns="solution")
             table.insert(2, "variant", name)
@@ -223,7 +239,9 @@ def without_thrust(parameters: Parameters, section: Configuration) -> pd.DataFra
         if not bound:
             continue
         for listing in flights(parameters.listing, section):
-            solved = solve_listing(parameters, section, scenario, listing, tuple(bound)).segments
+            solved = solve_listing(
+                parameters, section, scenario, listing, tuple(bound), paths=False
+            ).segments
             for name, segments in pd.DataFrame(solved).groupby("cubesat", sort=False):
                 idle = [
                     _idle(segment, bound[str(name)], parameters.mean_motion, listing)
@@ -246,12 +264,25 @@ def _idle(
     segment: Mapping[Hashable, Any], cubesat: CubeSat, mean_motion: float, listing: Listing
 ) -> float:
     """Seconds of a segment in which no component of the primer is above the deadzone."""
+    duration = segment["duration_s"]
+    costate = np.array([segment[name] for name in COSTATE])
+    thrust = _thrust(costate, duration, IDLE_POINTS + 1, cubesat, mean_motion, listing)[:-1]
+    return duration * np.count_nonzero(~thrust.any(axis=1)) / IDLE_POINTS
+
+
+def _thrust(
+    costate: np.ndarray,
+    duration: float,
+    points: int,
+    cubesat: CubeSat,
+    mean_motion: float,
+    listing: Listing,
+) -> np.ndarray:
+    """Thrust (points, 3) of a segment at equal times, both ends among them, from its costate (6,).
+
+    It hangs on the costates alone, whose law is linear.
+    """
     law, limits = law_of(cubesat)
-    step = expm(
-        costate_matrix(mean_motion, listing.transposed) * segment["duration_s"] / IDLE_POINTS
-    )
-    costate, idle = np.array([segment[name] for name in COSTATE]), 0
-    for _ in range(IDLE_POINTS):
-        idle += not thrust_of(costate[3:].copy(), law, limits, listing.deadzone).any()
-        costate = step @ costate
-    return segment["duration_s"] * idle / IDLE_POINTS
+    matrix = costate_matrix(mean_motion, listing.transposed)
+    step = expm(matrix * duration / (points - 1))
+    return thrust_along(costate, step, points, law, limits, listing.deadzone)

@@ -87,6 +87,16 @@ def thrust_of(primer, law, limits, deadzone):
     return np.array(thrust_components(primer, law, limits, deadzone))
 
 
+@compiled
+def thrust_along(costate, step, points, law, limits, deadzone):
+    """Thrust (points, 3) of a costate (6,) and of what a matrix ``step`` (6, 6) makes of it."""
+    thrust, p = np.empty((points, 3)), costate.copy()
+    for k in range(points):
+        thrust[k] = thrust_components(p[3:], law, limits, deadzone)
+        p = step @ p
+    return thrust
+
+
 @compiled_arithmetic
 def rate(y, n, transposed, law, limits, deadzone, out):
     """Rate (12,) of state and costate by Listing C.F, or with the costates' matrix transposed.

@@ -35,11 +35,12 @@ def propagate_held(
     for duration, control in zip(durations, controls, strict=True):
         torque = control * model.torque
 
-        def rate(t: float, y: np.ndarray, torque=torque) -> np.ndarray:
+        # Counted from the start of the piece, which may be shorter than the spacing of later times.
+        def rate(t: float, y: np.ndarray, torque=torque, began=time) -> np.ndarray:
             q = tuple(y[:4])
             outer = (0.0, 0.0, 0.0)
             if model.parameters is not None:
-                r = _position(model.parameters.orbit, model.parameters.gravity.mu, t)
+                r = _position(model.parameters.orbit, model.parameters.gravity.mu, began + t)
                 body = np.array(quaternion_to_dcm(q)) @ r
                 outer = gravity_gradient(model.inertia, body, model.parameters.gravity.mu)
             w = angular_acceleration(
@@ -49,9 +50,7 @@ def propagate_held(
 
         length = float(duration) * model.unit
         if length > 0.0 and np.isfinite(y).all() and np.isfinite(torque).all():
-            solution = solve_ivp(
-                rate, (time, time + length), y, method="DOP853", rtol=1e-11, atol=1e-13
-            )
+            solution = solve_ivp(rate, (0.0, length), y, method="DOP853", rtol=1e-11, atol=1e-13)
             y = solution.y[:, -1] if solution.success else np.full(10, np.nan)
             time += length
         elif length != 0.0:

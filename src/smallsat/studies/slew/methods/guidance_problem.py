@@ -13,6 +13,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from smallsat.dynamics.attitude.quaternions import error_quaternion, product
 from smallsat.dynamics.orbits.kepler_orbits import perifocal_frame
 from smallsat.optimal_control.gauss_pseudospectral import (
     GaussPseudospectral,
@@ -20,7 +21,12 @@ from smallsat.optimal_control.gauss_pseudospectral import (
     OptimalControlProblem,
     Plan,
 )
-from smallsat.optimal_control.nonlinear_program import NEXT_TO_OPTIMUM, IpoptSolver, Solution
+from smallsat.optimal_control.nonlinear_program import (
+    MINIMUM_DEGREE,
+    NEXT_TO_OPTIMUM,
+    IpoptSolver,
+    Solution,
+)
 from smallsat.studies.slew.parameters import Parameters
 
 CONTROLS = 3
@@ -211,8 +217,8 @@ def turning_guess(
 
     ``tilt`` holds the vector parts along the two axes normal to the eigenaxis, at half time.
     """
-    reverse = np.r_[-initial[:3], initial[3]]
-    turn = _product(reverse, target)
+    start = tuple(initial)
+    turn = np.array(error_quaternion(tuple(target), start))
     turn = turn if turn[3] >= 0 else -turn
     angle = 2.0 * np.arctan2(np.linalg.norm(turn[:3]), turn[3])
     axis = turn[:3] / np.linalg.norm(turn[:3])
@@ -221,22 +227,22 @@ def turning_guess(
     second = np.cross(axis, first)
     end = final_time / model.unit
 
-    def attitude(t: float) -> np.ndarray:
+    def attitude(t: float) -> tuple[float, ...]:
         s = t / end
         part = angle * s * s * (3.0 - 2.0 * s)
-        along = np.r_[np.sin(part / 2) * axis, np.cos(part / 2)]
+        along = (*(np.sin(part / 2) * axis), np.cos(part / 2))
         aside = np.sin(np.pi * s) * (tilt[0] * first + tilt[1] * second)
-        off = np.r_[aside, 1.0]
-        return _product(_product(initial, off / np.linalg.norm(off)), along)
+        size = np.sqrt(aside @ aside + 1.0)
+        return product(product(start, (*(aside / size), 1.0 / size)), along)
 
     def state(t: float) -> np.ndarray:
         d = 1e-5 * end
         before, after = attitude(max(t - d, 0.0)), attitude(min(t + d, end))
-        change = _product(np.r_[-before[:3], before[3]], after)
+        change = np.array(error_quaternion(after, before))
         rate = 2.0 * change[:3] / (min(t + d, end) - max(t - d, 0.0))
         scaled = model.inertia / (model.torque * model.unit**2)
         limit = model.momentum / model.momentum_unit
-        return np.r_[attitude(t), rate, np.clip(scaled @ rate, -limit, limit)]
+        return np.array([*attitude(t), *rate, *np.clip(scaled @ rate, -limit, limit)])
 
     def control(t: float) -> np.ndarray:
         d = 1e-3 * end
@@ -292,6 +298,7 @@ class Guidance:
             "tol": 1e-9,
             "max_iter": 400,
             "mu_strategy": "adaptive",
+            **MINIMUM_DEGREE,
         } | options
         self._settings = settings
         self._solver = IpoptSolver(self.method.program, **settings)
@@ -332,9 +339,3 @@ class Guidance:
             duration=plan.final_time * self.model.unit,
             hamiltonian=self.method.hamiltonian(plan, np.array([smoothing[-1]])),
         )
-
-
-def _product(p: np.ndarray, q: np.ndarray) -> np.ndarray:
-    vector = p[3] * q[:3] + q[3] * p[:3] + np.cross(p[:3], q[:3])
-    # The attitude p followed by a turn in the axes it leads to is p times q.
-    return np.r_[vector, p[3] * q[3] - p[:3] @ q[:3]]

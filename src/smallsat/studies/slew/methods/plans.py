@@ -10,7 +10,7 @@ import pandas as pd
 
 from smallsat.evidence.not_converged import NotConverged
 from smallsat.optimal_control.gauss_pseudospectral import Mesh, OptimalControlProblem
-from smallsat.optimal_control.nonlinear_program import IpoptSolver, Solution
+from smallsat.optimal_control.nonlinear_program import MINIMUM_DEGREE, IpoptSolver, Solution
 from smallsat.optimal_control.zero_order_hold import HeldControl
 from smallsat.studies.slew.configuration import Numerics
 from smallsat.studies.slew.methods.flown import miss, propagate_held
@@ -182,7 +182,12 @@ def hold(slew: Slew, result: Result, numerics: Numerics) -> HeldPlan:
     stated = slew.stated()
     method = HeldControl(stated, pieces, 1)
     solver = IpoptSolver(
-        method.program, tol=1e-9, max_iter=600, mu_strategy="monotone", mu_init=1e-4
+        method.program,
+        tol=1e-9,
+        max_iter=600,
+        mu_strategy="monotone",
+        mu_init=1e-4,
+        **MINIMUM_DEGREE,
     )
     guess = method.guess(
         np.r_[0.0, plan.times, plan.final_time],
