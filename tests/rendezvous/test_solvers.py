@@ -27,10 +27,9 @@ from smallsat.studies.rendezvous.guidance.controller import (
 from smallsat.studies.rendezvous.guidance.phase_programs import (
     BOUNDS,
     PLANES,
-    bound_count,
     empty_program,
+    in_use,
     shape,
-    with_bounds,
     write_program,
 )
 from smallsat.studies.rendezvous.methods import qp_solvers, solver_comparison
@@ -198,9 +197,8 @@ def _ended_as_alone(law, record, phase, states, limit):
     together = together_for(max(law.horizons))
     for lane, state in enumerate(states):
         write_lane(record, phase, state, 0.0, together, lane)
-    bounds = bound_count(record, phase)
     rows = solve_together(
-        with_bounds(together.programs, bounds), stages, together.scaled, together.work,
+        in_use(together.programs, record, phase), stages, together.scaled, together.work,
         TOLERANCE, limit, together.ends,
     )  # fmt: skip
     work = together.work
@@ -226,6 +224,7 @@ def test_programs_of_one_shape_have_their_rows_in_common(law, laws):
         law.with_(horizons=(20, 15, 12)),
         law.with_(penalties=(0.0, *law.penalties[1:])),
         law.with_(rotation_rate=1e-3),
+        law.with_(eccentricity=0.1, true_anomaly=1.0),
     ]
     state, kinds = np.array([10.0, -200.0, 5.0, 0.0, 0.1, 0.0]), {}
     for record in guidance.settings(every):
@@ -238,6 +237,7 @@ def test_programs_of_one_shape_have_their_rows_in_common(law, laws):
                 tuple(program.components),
                 tuple(program.signs),
                 bool(program.control_norm[0] > 0.0),
+                len(program.transitions),
             )
             assert kinds.setdefault(shape(record, phase), shared) == shared
     assert len(set(kinds.values())) == len(kinds) > 4

@@ -56,7 +56,7 @@ class Program(NamedTuple):
     Attributes
     ----------
     transitions
-        A of each stage, (N, 6, 6).
+        A of each stage, (N, 6, 6), or (1, 6, 6) where all have the same.
     state_hessian, terminal_hessian
         Diagonal of H, (6,), and H of the last stage, (6, 6).
     state_gradient
@@ -169,11 +169,12 @@ def roll_out(transitions, start, controls, stages, states):
     for k in range(STATES):
         states[0, k] = start[k]
     for i in range(stages):
+        a = transitions[min(i, len(transitions) - 1)]
         for j in range(STATES):
             total = 0.0
             for k in range(3):
-                total += transitions[i, j, k] * states[i, k]
-                total += transitions[i, j, 3 + k] * (states[i, 3 + k] + controls[i, k])
+                total += a[j, k] * states[i, k]
+                total += a[j, 3 + k] * (states[i, 3 + k] + controls[i, k])
             states[i + 1, j] = total
 
 
@@ -327,12 +328,13 @@ def _assemble_curvature(program, control_rows, stages, work):
 @compiled_arithmetic
 def _model(transitions, i):
     """The entries of A of a stage that are not zero: in the orbit's plane, then out of it."""
+    a = transitions[min(i, len(transitions) - 1)]
     return (
-        transitions[i, 0, 0], transitions[i, 0, 1], transitions[i, 0, 3], transitions[i, 0, 4],
-        transitions[i, 1, 0], transitions[i, 1, 1], transitions[i, 1, 3], transitions[i, 1, 4],
-        transitions[i, 3, 0], transitions[i, 3, 1], transitions[i, 3, 3], transitions[i, 3, 4],
-        transitions[i, 4, 0], transitions[i, 4, 1], transitions[i, 4, 3], transitions[i, 4, 4],
-        transitions[i, 2, 2], transitions[i, 2, 5], transitions[i, 5, 2], transitions[i, 5, 5],
+        a[0, 0], a[0, 1], a[0, 3], a[0, 4],
+        a[1, 0], a[1, 1], a[1, 3], a[1, 4],
+        a[3, 0], a[3, 1], a[3, 3], a[3, 4],
+        a[4, 0], a[4, 1], a[4, 3], a[4, 4],
+        a[2, 2], a[2, 5], a[5, 2], a[5, 5],
     )  # fmt: skip
 
 
@@ -525,10 +527,11 @@ def _largest_control_gradient(transitions, stages, work):
         costate[k] = work.state_rhs[stages, k]
     largest = 0.0
     for i in range(stages - 1, -1, -1):
+        a = transitions[min(i, len(transitions) - 1)]
         for k in range(STATES):
             total = 0.0
             for m in range(STATES):
-                total += transitions[i, m, k] * costate[m]
+                total += a[m, k] * costate[m]
             mapped[k] = total
         for k in range(CONTROLS):
             largest = larger(largest, size(work.control_rhs[i, k] + mapped[3 + k]))

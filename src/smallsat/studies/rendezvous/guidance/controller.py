@@ -27,10 +27,9 @@ from smallsat.studies.rendezvous.guidance.law import DISTANCE, DOCKING, RENDEZVO
 from smallsat.studies.rendezvous.guidance.phase_programs import (
     BOUNDS,
     PLANES,
-    bound_count,
     empty_program,
+    in_use,
     lane_of,
-    with_bounds,
     write_program,
 )
 from smallsat.studies.rendezvous.model.geometry import in_cone, rotated
@@ -172,7 +171,7 @@ def _scale(law, phase, state, scaled):
 def solve_lanes(law, phase, together):
     """Solve all lanes, of the shape that a law's phase has; return their rows on states."""
     return solve_together(
-        with_bounds(together.programs, bound_count(law, phase)), law.horizons[phase],
+        in_use(together.programs, law, phase), law.horizons[phase],
         together.scaled, together.work, TOLERANCE, ITERATION_LIMIT, together.ends,
     )  # fmt: skip
 

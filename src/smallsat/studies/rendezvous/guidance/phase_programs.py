@@ -61,10 +61,13 @@ def bound_count(law, phase):
 
 
 @compiled
-def with_bounds(program, count):
-    """Return the program with only its first `count` rows on components."""
+def in_use(program, law, phase):
+    """Return the program with only the models and rows on components that a phase's program has."""
+    count = bound_count(law, phase)
+    # On a circular orbit all stages have the same model.
+    models = law.horizons[phase] if law.elliptic != 0 else 1
     return Program(
-        program.transitions,
+        program.transitions[:models],
         program.state_hessian,
         program.terminal_hessian,
         program.state_gradient,
@@ -104,10 +107,11 @@ def lane_of(programs, lane):
 
 def shape(law, phase):
     """What programs of laws must have in common to be solved together: a key, from `SETTINGS`."""
+    common = phase, int(law["horizons"][phase]), bool(law["elliptic"])
     if phase != RENDEZVOUS:
-        return phase, int(law["horizons"][phase])
+        return common
     one_norm, cone = law["norm_control_weights"][0] > 0.0, law["penalties"][0] > 0.0
-    return phase, int(law["horizons"][phase]), bool(one_norm), bool(cone)
+    return *common, bool(one_norm), bool(cone)
 
 
 @compiled
@@ -162,28 +166,26 @@ def write_program(law, phase, state, time, program):
         outside = _write_corridor(law, phase, state, time, program)
     if phase == DOCKING:
         outside = _write_speed_bound(law, state, program) or outside
-    return with_bounds(program, bound_count(law, phase)), outside
+    return in_use(program, law, phase), outside
 
 
 @compiled
 def _write_transitions(law, phase, time, transitions):
-    """Write the model of each stage, (N, 6, 6): circular, or of an ellipse from where it is now."""
-    stages, ts = law.horizons[phase], law.sample_times[phase]
-    n, e, anomaly = law.mean_motion, law.eccentricity, law.true_anomaly
-    if law.elliptic != 0:
-        anomaly = true_anomaly_after(anomaly, e, n * time)
-    for i in range(stages):
-        if law.elliptic != 0:
-            step = elliptic_transition(n, e, anomaly, ts)
-            anomaly = true_anomaly_after(anomaly, e, n * ts)
-            for j in range(6):
-                for k in range(6):
-                    scale = law.scales[phase, k] / law.scales[phase, j]
-                    transitions[i, j, k] = step[j, k] * scale
-        else:
-            for j in range(6):
-                for k in range(6):
-                    transitions[i, j, k] = law.transitions[phase, j, k]
+    """Write the model: circular, once, or of each stage of an ellipse from where it is now."""
+    if law.elliptic == 0:
+        for j in range(6):
+            for k in range(6):
+                transitions[0, j, k] = law.transitions[phase, j, k]
+        return
+    n, e, ts = law.mean_motion, law.eccentricity, law.sample_times[phase]
+    anomaly = true_anomaly_after(law.true_anomaly, e, n * time)
+    for i in range(law.horizons[phase]):
+        step = elliptic_transition(n, e, anomaly, ts)
+        anomaly = true_anomaly_after(anomaly, e, n * ts)
+        for j in range(6):
+            for k in range(6):
+                scale = law.scales[phase, k] / law.scales[phase, j]
+                transitions[i, j, k] = step[j, k] * scale
 
 
 @compiled

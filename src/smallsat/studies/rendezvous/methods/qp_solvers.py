@@ -104,6 +104,11 @@ def row_list(program: Program, stages: int) -> tuple[np.ndarray, np.ndarray, np.
     return matrix, np.concatenate(limits), np.concatenate(weights)
 
 
+def moves_of(sample: Sample) -> np.ndarray:
+    """A of each stage, (N, 6, 6)."""
+    return np.broadcast_to(sample.program.transitions, (sample.stages, STATES, STATES))
+
+
 def sparse_program(sample: Sample) -> SparseProgram:
     """Write a program with states and excesses as unknowns."""
     program, stages = sample.program, sample.stages
@@ -119,7 +124,7 @@ def sparse_program(sample: Sample) -> SparseProgram:
             weights,
         ]
     )
-    moves = program.transitions[:stages]
+    moves = moves_of(sample)
     below = sparse.lil_matrix((states, states))
     for i in range(1, stages):
         below[STATES * i : STATES * (i + 1), STATES * (i - 1) : STATES * i] = moves[i]
@@ -233,7 +238,7 @@ def cost(sample: Sample, controls: np.ndarray) -> float:
     program, stages = sample.program, sample.stages
     u = np.clip(controls, -1.0, 1.0)
     states = [np.asarray(sample.start)]
-    for transition, control in zip(program.transitions, u, strict=False):
+    for transition, control in zip(moves_of(sample), u, strict=True):
         moved = states[-1].copy()
         moved[3:] += control
         states.append(transition @ moved)
