@@ -63,12 +63,8 @@ class _Loop:
         places = list(dict.fromkeys([f"a{k}" for k in range(function.n_in())] + [into]))
         lines = []
         for place in places:
-            base = f"%{place}"
-            if place in widths:
-                lines.append(f"%offset_{place} = mul i64 %k, {widths[place]}")
-                lines.append(f"%at_{place} = getelementptr double, ptr {base}, i64 %offset_{place}")
-            else:
-                lines.append(f"%at_{place} = getelementptr double, ptr {base}, i64 0")
+            lines.append(f"%offset_{place} = mul i64 %k, {widths.get(place, 0)}")
+            lines.append(f"%at_{place} = getelementptr double, ptr %{place}, i64 %offset_{place}")
         lines += _translated(function, into)
         llvm.initialize_native_target()
         llvm.initialize_native_asmprinter()
