@@ -14,7 +14,7 @@ Numbers = tuple[Callable[[np.ndarray], np.ndarray], Callable[[np.ndarray], np.nd
 # MUMPS permutes a matrix towards a large diagonal before it orders the elimination, which leaves a
 # poor order. What it is for, constraints that nearly depend on one another, most programs have not.
 UNPERMUTED: dict[str, Any] = {"mumps_permuting_scaling": 0}
-# Approximate minimum degree, of MUMPS's orders the best for chains of stages and of segments.
+# Approximate minimum degree: of chains of stages or segments a better order than MUMPS's choice.
 MINIMUM_DEGREE: dict[str, Any] = UNPERMUTED | {"mumps_pivot_order": 0}
 # For a guess next to an optimum, with a small first barrier of the caller's (``mu_init``): a large
 # one, or a push away from the bounds, would lead away from it.

@@ -132,7 +132,7 @@ def _solve(
             | {
                 "segment": k,
                 "name": names[k],
-                "duration_s": times[k + 1] - times[k],
+                "duration_s": duration,
                 "converged": one.converged,
                 "status": one.status,
                 "violation": one.violation,
