@@ -16,6 +16,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from benchmarks.yardstick import yardstick
 from tests.project_copy import MAKE
 from tests.provenance import provenance
 
@@ -74,26 +75,35 @@ def seconds(wait: Wait, folder: Path) -> float:
     return time.perf_counter() - began
 
 
+def with_row(rows: pd.DataFrame, row: dict[str, object]) -> pd.DataFrame:
+    """The table with a row more, in place of one of the same wait and commit."""
+    again = (rows["wait"] == row["wait"]) & (rows["commit"] == row["commit"])
+    return pd.concat([rows[~again], pd.DataFrame([row])], ignore_index=True)[[*rows.columns]]
+
+
 def main() -> None:
-    """Time what is asked for, and exchange its rows of the table."""
+    """Time what is asked for, and add its rows to the table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("waits", nargs="*", metavar="wait", help=f"{', '.join(WAITS)}; else all")
     asked = parser.parse_args().waits or list(WAITS)
     if unknown := [name for name in asked if name not in WAITS]:
         parser.error(f"{unknown[0]}: not one of {', '.join(WAITS)}")
     facts = provenance("make waiting", "snakemake")
-    rows = pd.read_csv(OUTPUT).set_index("wait").to_dict("index") if OUTPUT.exists() else {}
     folder = Path(tempfile.mkdtemp(prefix="waiting-"))
     subprocess.run(["git", "clone", "--quiet", ROOT, folder], check=True)
     run("make .venv/installed", folder)
     for name in asked:
         wait = WAITS[name]
+        pace = yardstick()
         taken = seconds(wait, folder)
-        print(f"{wait.what}: {taken:.1f} s, goal {wait.goal:g} s", flush=True)
+        pace = (pace + yardstick()) / 2
+        print(
+            f"{wait.what}: {taken:.1f} s, goal {wait.goal:g} s; yardstick {pace:.3f} s", flush=True
+        )
         said = {"what": wait.what, "command": wait.command, "goal_s": wait.goal}
-        rows[name] = facts | said | {"seconds": round(taken, 1)}
-        found = pd.DataFrame([{"wait": name} | rows[name] for name in WAITS if name in rows])
-        found.to_csv(OUTPUT, index=False, lineterminator="\n")
+        found = {"seconds": round(taken, 1), "yardstick_s": round(pace, 3)}
+        table = with_row(pd.read_csv(OUTPUT), {"wait": name} | facts | said | found)
+        table.to_csv(OUTPUT, index=False, lineterminator="\n")
     shutil.rmtree(folder)
 
 
