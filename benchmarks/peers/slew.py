@@ -16,7 +16,7 @@ from smallsat.config import default_config
 from smallsat.dynamics.orbits.kepler_orbits import perifocal_frame
 from smallsat.optimal_control.gauss_pseudospectral import Mesh
 from smallsat.studies.slew.methods.flown import miss, propagate_held
-from smallsat.studies.slew.methods.guidance_problem import Guidance, Model, kepler_steps
+from smallsat.studies.slew.methods.guidance_problem import FOLLOWING, Guidance, Model, kepler_steps
 from smallsat.studies.slew.methods.plans import Slew, guidance_model, hold, slew_of
 from smallsat.studies.slew.parameters import Parameters
 
@@ -140,6 +140,8 @@ def _yapss():
         guess.state = np.column_stack([state(t) for t in times])
         guess.control = np.column_stack([control(t) for t in times])
         for stage[0] in SMOOTHING:
+            # As ours, a later stage begins next to the optimum of the one before; 0.1 is IPOPT's.
+            options.mu_init = 0.1 if stage[0] == SMOOTHING[0] else FOLLOWING["mu_init"]
             solution = ocp.solve()
             assert solution.nlp_info.ipopt_status == 0
             phase = solution.phase[0]
