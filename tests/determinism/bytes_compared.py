@@ -25,7 +25,8 @@ FOLDERS = ("data/results", "figures", "report/build")
 TIMES = ("start_time", "end_time", "duration", "execution")
 # Files whose words can be read; a PDF is compressed.
 TEXTS = (".csv", ".json", ".html", ".svg", ".css", ".js", ".xml", ".bib", ".accepted")
-NUMBER = re.compile(r"[-+−]?\d+(?:[.,]\d+)*(?:e[-+]?\d+)?")
+# Pages set an exponent as a power of ten.
+NUMBER = re.compile(r"[-+−]?\d+(?:[.,]\d+)*(?:e[-+]?\d+|×10<sup>[-+−]?\d+</sup>)?")
 
 
 @dataclass(frozen=True)
