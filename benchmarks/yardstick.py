@@ -15,7 +15,7 @@ SOLVES = 25
 
 
 def oscillator() -> tuple[ca.Function, dict[str, np.ndarray]]:
-    """The Van der Pol oscillator brought to rest, by multiple shooting of order 4.
+    """The Van der Pol oscillator, regulated for 10 s, by multiple shooting of order 4.
 
     The solver, and the bounds that it is called with; the step is 0.025 s, the control within 1.
     """
